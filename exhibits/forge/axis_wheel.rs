@@ -1,4 +1,4 @@
-//! A wheel held by its middle alone: what it turns about is said by the constraints, and changes.
+//! A wheel held at its centre alone: constraints determine its axis of rotation, which changes.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI};
 
@@ -7,7 +7,7 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::revolve;
 use soffio_authoring::stock_parts::{BRASS, MM, ROUND, WOOD, finishes, part, ring, rod, vane, write, y_to_z};
 
-/// Height of the wheel's middle above the floor.
+/// Height of the wheel's centre above the floor, m.
 const MIDDLE: f64 = 300.0 * MM;
 const VANES: [&str; 6] = ["Vane1", "Vane2", "Vane3", "Vane4", "Vane5", "Vane6"];
 
@@ -26,7 +26,7 @@ pub fn glb() -> Vec<u8> {
         vane(name, size, 41.5 * MM, PI / 3.0 * k as f64, 0.6, (WOOD, finish))
     }));
     let wheel = Piece { name: "Wheel", parts, wires: Vec::new(), markers: Vec::new() };
-    // A bowl beneath it, clear of the sphere that the rim can sweep.
+    // A bowl below it, outside the sphere that the rim can sweep.
     let bowl =
         [(0.0, 0.0), (70.0, 0.0), (74.0, 4.0), (30.0, 18.0), (14.0, 60.0), (16.0, 150.0), (22.0, 196.0), (0.0, 190.0)];
     let bowl = revolve(&bowl.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);

@@ -1,4 +1,4 @@
-//! A small billiard table whose bed sinks towards its middle, and seven hollow balls that a breath can drive.
+//! A small billiard table whose bed slopes towards its centre, and seven hollow balls that a breath can move.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
@@ -8,16 +8,16 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{Solid, extrude, revolve, revolve_ring};
 use soffio_authoring::stock_parts::{MM, WOOD, finishes, part, rod};
 
-/// Radius of a ball; the sidecar says the same, and what a shell of celluloid of that size weighs.
+/// Radius of a ball, m, as in the sidecar, and mass of a celluloid shell of that size, kg.
 const RADIUS: f64 = 20.0 * MM;
-/// Corners of a ball's outline.
+/// Segments of a ball's outline.
 const AROUND: usize = 36;
-/// Half the field between the cushions, along x and z.
+/// Half lengths of the field between the cushions along x and z, m.
 const FIELD: DVec2 = DVec2::new(240.0 * MM, 150.0 * MM);
-/// The middle of the bed above the floor, and how much higher its edge is.
+/// Height of the bed's centre above the floor, and of its edge above the centre, m.
 const BED: f64 = 64.0 * MM;
 const RISE: f64 = 3.0 * MM;
-/// Balls, their stripes, and where they lie at the start (x and z).
+/// Balls, their stripes, and their start positions (x and z).
 const BALLS: [([&str; 2], [f64; 2]); 7] = [
     (["Ball1", "Stripe1"], [-155.0, 55.0]),
     (["Ball2", "Stripe2"], [-70.0, -45.0]),
@@ -27,8 +27,7 @@ const BALLS: [([&str; 2], [f64; 2]); 7] = [
     (["Ball6", "Stripe6"], [55.0, -100.0]),
     (["Ball7", "Stripe7"], [175.0, 45.0]),
 ];
-/// What the sidecar lays a plane through: the four slopes of the bed and the four cushions, each with the direction that it
-/// is out of the field.
+/// Planes of the sidecar: the four slopes of the bed and the four cushions, each with its outward direction.
 const PLANES: [([&str; 2], DVec2); 4] = [
     (["BedLeft", "CushionLeft"], DVec2::new(-1.0, 0.0)),
     (["BedRight", "CushionRight"], DVec2::new(1.0, 0.0)),
@@ -98,23 +97,23 @@ pub fn glb() -> Vec<u8> {
     scene.into_glb("Billiards", "Original work of the Soffio project; MIT OR Apache-2.0")
 }
 
-/// The rectangle of the field, its sides moved out.
+/// The rectangle of the field, its sides moved outwards.
 fn field(out: f64) -> Polygon {
     let (x, y) = (FIELD.x + out, FIELD.y + out);
     [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| DVec2::new(x, y)).into()
 }
 
-/// Normal of the slope of the bed that leads out of the field along `out`.
+/// Normal of the slope of the bed on the side `out`.
 fn slope_normal(out: DVec2) -> DVec3 {
     DVec3::new(-out.x * RISE / FIELD.x, 1.0, -out.y * RISE / FIELD.y).normalize()
 }
 
-/// The least turn that brings Y to face along a unit vector.
+/// The shortest rotation from Y to a unit vector.
 fn y_to_z(normal: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Y, normal)
 }
 
-/// Centre of a ball that lies on the bed there.
+/// Centre of a ball on the bed.
 fn resting(at: DVec2) -> DVec3 {
     let above = |out: DVec2| {
         let n = slope_normal(out);
@@ -160,7 +159,7 @@ fn sphere() -> Solid {
     revolve(&profile, AROUND)
 }
 
-/// A band about the equator, so that one sees it roll.
+/// A band about the equator, which makes the rolling visible.
 fn stripe() -> Solid {
     const HALF: f64 = 0.22;
     let outer = (0..=6).map(|k| on_circle(RADIUS + 0.08 * MM, HALF * (k as f64 / 3.0 - 1.0)));

@@ -1,4 +1,4 @@
-//! Five beads on a tray under a hook: what a breath gathers into a chain.
+//! Five beads on a tray under a hook: a breath assembles them into a chain.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
@@ -10,10 +10,10 @@ use soffio_authoring::stock_parts::{MM, ROUND, STEEL, WOOD, bent_rod_stand, fini
 /// Height of the hook, and of the tray's floor.
 const HOOK: f64 = 400.0 * MM;
 const FLOOR: f64 = 10.0 * MM;
-/// Of a bead, and how far its eyes stand out of it.
+/// Radius of a bead, and how far its eyes protrude, m.
 const RADIUS: f64 = 19.0 * MM;
 const EYE: f64 = 3.0 * MM;
-/// Where the beads lie at first, mm, and how each is turned, rad.
+/// Start positions of the beads, mm, and their rotations, rad.
 const PLACES: [(f64, f64, f64); 5] =
     [(-72.0, 22.0, 0.4), (64.0, -38.0, 1.9), (4.0, 62.0, -0.8), (-18.0, -64.0, 2.6), (82.0, 34.0, -2.1)];
 const NAMES: [[&str; 5]; 5] = [

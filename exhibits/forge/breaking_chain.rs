@@ -9,15 +9,15 @@ use soffio_authoring::outline::ring;
 use soffio_authoring::piece::{BentWire, Piece};
 use soffio_authoring::stock_parts::{ALUMINIUM, MM, STEEL, bent_rod_stand, finishes, part, rod, slab, write};
 
-/// From eye to eye of a link.
+/// Length of a link from eye to eye, m.
 const PITCH: f64 = 44.0 * MM;
-/// Where the chain hangs.
+/// Position of the chain's hook.
 const HOOK: f64 = 470.0 * MM;
 const LINKS: [&str; 6] = ["Link1", "Link2", "Link3", "Link4", "Link5", "Link6"];
 const EYES: [&str; 6] = ["Eye1", "Eye2", "Eye3", "Eye4", "Eye5", "Eye6"];
 const ENDS: [&str; 6] = ["End1", "End2", "End3", "End4", "End5", "End6"];
 
-/// The wire of a link: an eye around its hook, one around its end, each across the other, and the core between.
+/// The wire of a link: an eye around its hook, one around its end, perpendicular to each other, and the core between.
 fn eyes(name: &'static str) -> BentWire {
     let (wire, eye) = (0.6 * MM, 2.6 * MM);
     let top = ring((wire - eye) * DVec3::Y, eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
@@ -25,7 +25,7 @@ fn eyes(name: &'static str) -> BentWire {
     BentWire { name, points: top.into_iter().chain(bottom).collect(), radius: wire, density: STEEL }
 }
 
-/// The model: each link hangs by its origin, its end is marked.
+/// The model: each link hangs at its origin, and its end has a marker.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
@@ -33,12 +33,12 @@ pub fn glb() -> Vec<u8> {
     let hook = HOOK * DVec3::Y;
     let mut stand = bent_rod_stand(hook, DVec2::new(0.0, -90.0 * MM), finishes.black);
     let flat = rotation(0.5 * PI * DVec3::X);
-    // As far as a hard breath throws what falls: mostly forwards and to the left, where the chain swings back.
+    // Landing area of falling parts after a hard breath: mostly forwards and to the left, where the chain swings back.
     let tray = slab(520.0 * MM, 400.0 * MM, 6.0 * MM);
     stand.parts.push(part("Tray", tray, DVec3::new(-40.0 * MM, 15.0 * MM, 20.0 * MM), flat, STEEL, finishes.black));
     let mut pieces = vec![(stand, DVec3::ZERO)];
     for (i, name) in LINKS.into_iter().enumerate() {
-        // The weak joint is the one under the third link: what hangs on it is red.
+        // The weak joint is the one under the third link: the part below it is red.
         let finish = if i < 3 { finishes.steel } else { finishes.red };
         let bar = rod(2.2 * MM, -PITCH + 5.0 * MM, -5.0 * MM);
         let link = Piece {

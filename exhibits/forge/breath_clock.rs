@@ -1,17 +1,18 @@
 //! A wooden clock that breath winds: a windmill, four pairs of wheels and a differential raise the weight that drives it.
 //!
 //! The going train, the escapement and the hands are those of the clock after Eli Terry (`terry_clock`). On the great
-//! wheel's arbor three things turn by themselves: the great wheel A, the drum D with the cord, and the winding wheel B.
-//! Planets on the drum mesh with both wheels:
+//! wheel's arbor three wheels rotate independently: the great wheel A, the drum D with the cord, and the winding wheel
+//! B. Planets on the drum mesh with both wheels:
 //!
 //! ```text
-//! ω_A + ω_B = 2 ω_D          the drum's torque τ = m g r goes to each wheel by half, wound or not
-//! v = r ω_D                  of the weight, down
+//! ω_A + ω_B = 2 ω_D          half of the drum's torque τ = m g r goes to each wheel, wound or not
+//! v = r ω_D                  speed of the weight, downwards
 //! rotor 16 → 64 third 6 → 60 second 8 → 64 first 8 → 64 winding wheel B        2560 : 1
 //! ```
 //!
-//! A ratchet keeps the winding train from running back; while it stands the drum turns half as fast as the great wheel. With
-//! m = 2.494 kg, r = 20 mm and the great wheel's turn in eight hours the weight goes down by 7.9 mm an hour: 53 µW.
+//! A ratchet keeps the winding train from running back; while it stands, the drum rotates at half the speed of the
+//! great wheel. With m = 2.494 kg, r = 20 mm and eight hours for a turn of the great wheel, the weight descends by 7.9
+//! mm an hour: 53 µW.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
@@ -29,18 +30,18 @@ use soffio_authoring::stock_parts::{
 
 /// Teeth of the winding train, each pair from the slower wheel to the faster pinion.
 pub const WINDING: [(usize, usize); 4] = [(64, 8), (64, 8), (60, 6), (64, 16)];
-/// Where each arbor stands from the one before, direction in the plane of the plates.
+/// Direction of each arbor from the previous one, in the plane of the plates.
 const STEPS: [(f64, f64); 4] = [(-0.995, 0.0998), (-0.6, 0.8), (-0.8, 0.6), (-0.94, 0.341_174_442)];
-/// Layers of the winding wheel and of those it drives.
+/// Layers of the winding wheel and of the wheels that drive it.
 const WIND: f64 = -6.0 * MM;
 const BEHIND: f64 = -14.0 * MM;
-/// The rotor turns in front of the pendulum.
+/// Layer of the rotor, in front of the pendulum.
 const SAILS: f64 = 60.0 * MM;
 const SAIL_NAMES: [&str; 6] = ["Sail1", "Sail2", "Sail3", "Sail4", "Sail5", "Sail6"];
-/// Where the weight's middle is at first: it has 30 mm to go.
+/// Height of the weight's centre at the start: it can descend by 30 mm.
 const WEIGHT: f64 = 104.0 * MM;
-/// Length of the simple pendulum that beats 6720 times an hour at this clock's swing, m; without a leaf it swings wider than
-/// Terry's.
+/// Length of the simple pendulum that makes 6720 beats an hour at this clock's amplitude, m; without a leaf it swings
+/// wider than Terry's.
 const LENGTH: f64 = 290.3010 * MM;
 
 /// Arbors of the winding train: winding wheel, first, second, third, rotor.
@@ -52,7 +53,7 @@ fn winding_places() -> [DVec3; 5] {
     places
 }
 
-/// Everything between the great wheel's arbor and the breath.
+/// All parts between the great wheel's arbor and the breath.
 fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let places = winding_places();
     let wood = finishes.wood;
@@ -177,7 +178,7 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     pieces
 }
 
-/// The model: all arbors are z axes.
+/// The model; all arbors are parallel to z.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

@@ -1,15 +1,15 @@
-//! Recorded breaths for attract mode: made, not recorded, so that they can be made again and nobody's voice is kept.
+//! Breaths for attract mode, synthesised instead of recorded: they are reproducible and contain no person's voice.
 //!
-//! 16 kHz, mono, 16 bit: all that the blow detector listens to lies below 6 kHz.
+//! 16 kHz, mono, 16 bit: the blow detector uses only frequencies below 6 kHz.
 
 use std::io::Cursor;
 
 use soffio_detector::generate::{BreathShape, breath};
 
-/// Hz.
+/// Sample rate, Hz.
 const SAMPLE_RATE: u32 = 16_000;
 
-/// A breath of `strength` m/s at the lips that lasts `hold` s at its height, as a WAV file.
+/// A WAV file of a breath of `strength` m/s at the lips, `hold` s at full speed.
 pub fn wav(strength: f64, hold: f64, seed: u64) -> Result<Vec<u8>, hound::Error> {
     let shape = BreathShape { lead_in: 0.4, strength, hold, lead_out: 0.4, ..BreathShape::default() };
     let format = hound::WavSpec {

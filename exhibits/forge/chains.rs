@@ -1,7 +1,7 @@
-//! A light and a heavy chain of equal length, on a carriage that goes to and fro: side by side, or each by itself.
+//! A light and a heavy chain of equal length on a carriage that moves to and fro: side by side, or each alone.
 //!
-//! What turns a link is its lever against its inertia: a rod of length l about its middle has I/m = l²/12, a plate of
-//! width w beside that I/m = (l² + w²)/12. The heavy links are broad, so that their I/m is greater too.
+//! The rotation of a link depends on its lever arm and its inertia: a rod of length l about its centre has I/m = l²/12,
+//! a plate of width w has I/m = (l² + w²)/12. The heavy links are broad, so their I/m is greater too.
 
 use soffio_math::{DQuat, DVec3, PI};
 
@@ -12,12 +12,12 @@ use soffio_authoring::outline::ring;
 use soffio_authoring::piece::{BentWire, Piece};
 use soffio_authoring::stock_parts::{Finishes, MM, STEEL, WOOD, finishes, part, rod, slab, write};
 
-/// From eye to eye of a link.
+/// Length of a link from eye to eye, m.
 const PITCH: f64 = 44.0 * MM;
-/// Height of the hooks, and how far they are from the carriage's middle.
+/// Height of the hooks, and their distance from the carriage's centre, m.
 const HOOK: f64 = 500.0 * MM;
 const ASIDE: f64 = 110.0 * MM;
-/// Where the carriage begins.
+/// Start position of the carriage.
 const START: f64 = -130.0 * MM;
 /// Width and thickness of a heavy link.
 const BROAD: f64 = 46.0 * MM;
@@ -37,7 +37,7 @@ const HEAVY: Names = Names([
     ["HeavyEnd1", "HeavyEnd2", "HeavyEnd3", "HeavyEnd4", "HeavyEnd5", "HeavyEnd6", "HeavyEnd7", "HeavyEnd8"],
 ]);
 
-/// The wire of a link, of this radius: an eye around its hook, one around its end, each across the other.
+/// The wire of a link of this radius: an eye around its hook, one around its end, perpendicular to each other.
 fn eyes(name: &'static str, wire: f64) -> BentWire {
     let eye = 2.6 * MM;
     let top = ring((wire - eye) * DVec3::Y, eye, DVec3::NEG_Y, DVec3::X, EYE_STEPS);
@@ -67,7 +67,7 @@ fn heavy(names: [&'static str; 3], finishes: &Finishes) -> Piece {
     }
 }
 
-/// A chain: its names, a link, where it hangs on the carriage, its peg, hook and disc.
+/// A chain: its names, one link, its position on the carriage, its peg, hook and disc.
 struct Chain {
     names: &'static Names,
     link: fn([&'static str; 3], &Finishes) -> Piece,
@@ -102,7 +102,7 @@ fn carriage(chains: &[Chain], finishes: &Finishes) -> Piece {
     Piece { name: "Carriage", parts, wires: Vec::new(), markers }
 }
 
-/// The frame that the carriage runs on.
+/// The frame with the rail of the carriage.
 fn frame(finishes: &Finishes) -> Piece {
     let along = DQuat::IDENTITY;
     let half = 330.0 * MM;
@@ -133,17 +133,17 @@ pub fn glb() -> Vec<u8> {
     model("A light and a heavy chain", |finishes| vec![light_chain(-ASIDE, finishes), heavy_chain(ASIDE, finishes)])
 }
 
-/// The light one by itself.
+/// The light chain alone.
 pub fn light_glb() -> Vec<u8> {
     model("A light chain", |finishes| vec![light_chain(0.0, finishes)])
 }
 
-/// The heavy one by itself.
+/// The heavy chain alone.
 pub fn heavy_glb() -> Vec<u8> {
     model("A heavy chain", |finishes| vec![heavy_chain(0.0, finishes)])
 }
 
-/// A model of some chains: each link hangs by its origin, its end is marked.
+/// A model of some chains: each link hangs at its origin, and its end has a marker.
 fn model(title: &str, chains: fn(&Finishes) -> Vec<Chain>) -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

@@ -1,4 +1,4 @@
-//! Four wheels that mesh in a row, driven by a weight on the first wheel's drum and slowed by a fan on the last.
+//! Four meshing wheels in a row, driven by a weight on the first wheel's drum and braked by a fan on the last.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
@@ -9,18 +9,18 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, LEAD, MM, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, write, y_to_z,
 };
 
-/// Pitch diameter over number of teeth.
+/// Module: pitch diameter over number of teeth, m.
 pub const MODULE: f64 = 2.0 * MM;
-/// Name and teeth of each wheel, and the direction in which the next one stands, rad.
+/// Name and teeth of each wheel, and the direction of the next one, rad.
 pub const WHEELS: [(&str, usize, f64); 4] =
     [("Wheel1", 60, 0.35), ("Wheel2", 20, -0.6), ("Wheel3", 36, 0.75), ("Wheel4", 12, 0.0)];
-/// Where the first wheel's axle is.
+/// Position of the first wheel's axle.
 const FIRST: DVec3 = DVec3::new(-0.085, 0.25, 0.0);
-/// Of the drum, to the middle of the cord.
+/// Radius of the drum to the middle of the cord, m.
 pub const DRUM: f64 = 6.0 * MM;
 const THICKNESS: f64 = 5.0 * MM;
 
-/// The wheels where they stand, and the pins that they turn on.
+/// The wheels at their positions, and the pins on which they rotate.
 fn wheels(finishes: &Finishes) -> (Vec<(Piece, DVec3)>, Vec<Part>) {
     let colors = [finishes.wood, finishes.brass, finishes.wood, finishes.brass];
     let mut pieces: Vec<(Piece, DVec3)> = Vec::new();
@@ -28,7 +28,7 @@ fn wheels(finishes: &Finishes) -> (Vec<(Piece, DVec3)>, Vec<Part>) {
     let (mut center, mut phase) = (FIRST, 0.0);
     for (i, (name, teeth, toward)) in WHEELS.into_iter().enumerate() {
         let radius = 0.5 * MODULE * teeth as f64;
-        // Crossed out where there is room.
+        // Wheels with spokes where there is space.
         let holes: Vec<_> = (0..if teeth > 30 { 5 } else { 0 })
             .map(|k| {
                 let angle = phase + 0.4 * PI * f64::from(k);
@@ -57,7 +57,7 @@ fn wheels(finishes: &Finishes) -> (Vec<(Piece, DVec3)>, Vec<Part>) {
     (pieces, pins)
 }
 
-/// The weight's line: under the left side of the drum.
+/// Position of the weight: under the left side of the drum.
 fn line() -> DVec3 {
     FIRST + DVec3::new(-DRUM, 0.0, 12.0 * MM)
 }
@@ -105,7 +105,7 @@ fn stand(finishes: &Finishes, pins: Vec<Part>) -> Piece {
     Piece { name: "Stand", parts, wires: Vec::new(), markers: Vec::new() }
 }
 
-/// The model: all axles are z axes.
+/// The model; all axles are parallel to z.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

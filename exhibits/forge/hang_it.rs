@@ -1,10 +1,9 @@
-//! A mobile that nobody has balanced yet: its arm lies in a loop, held by friction alone, until a visitor slides it to where
-//! it hangs level. Then a hammer at its end is at the height of
-//! two cymbals.
+//! A mobile that is not balanced yet: its arm lies in a loop, held by friction alone, until a visitor slides it to the
+//! balance point. Then a hammer at its end is level with two cymbals.
 //!
-//! In the arm's frame its line is y = 0; wire, hammer and loads have their centre at (b, −h). It lies on the loop's bar at
-//! the height −r and the place u of that line, and with nothing but friction along it, it rests where the centre is under
-//! that point:
+//! In the arm's frame its axis is y = 0; wire, hammer and loads have their centre of mass at (b, −h). The arm lies on
+//! the loop's bar at the height −r and the position u of that axis. With friction along it, it is in equilibrium where
+//! its centre of mass is below that point:
 //!
 //! ```text
 //! tan θ = (u − b)/(h − r)        θ = 0 at u = b; friction holds while |tan θ| < μ
@@ -19,33 +18,33 @@ use soffio_authoring::piece::{BentWire, Piece, load, yaw};
 use soffio_authoring::solid::{extrude, revolve};
 use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
 
-/// Where the bar of the loop is, and how far the swivel is above it.
+/// Position of the loop's bar, and distance of the swivel above it, m.
 const BAR: DVec3 = DVec3::new(0.0, 0.52, 0.0);
 const SWIVEL: f64 = 16.0 * MM;
-/// Of the bar and of the wire.
+/// Radii of the bar and of the wire, m.
 const BAR_RADIUS: f64 = 1.5 * MM;
 const WIRE: f64 = 1.2 * MM;
-/// How far the ends of the arm are below its line: what makes it forgiving.
+/// Depth of the arm's ends below its axis, m, which makes the balance stable.
 const DROOP: f64 = 90.0 * MM;
-/// Ends of the arm, and of its straight piece, from the origin of its line.
+/// Ends of the arm and of its straight part, from the origin of its axis, m.
 const LEFT: f64 = -150.0 * MM;
 const RIGHT: f64 = 230.0 * MM;
 const STRAIGHT: f64 = 62.0 * MM;
-/// How far the hammer is beyond the right end.
+/// Distance of the hammer beyond the right end, m.
 const REACH: f64 = 38.0 * MM;
 const HAMMER: f64 = 6.0 * MM;
-/// How far from where it hangs level the arm lies at first.
+/// Distance of the start position from the balance point, m.
 const OFF: f64 = -15.0 * MM;
-/// Two cymbals where the hammer of the level arm passes, their rims a little inside of its way: names, radius, and where
-/// each hangs, seen from above, from where the arm points at first, rad.
+/// Two cymbals next to the path of the hammer, their rims slightly inside it: names, radius, and direction of each from
+/// above, relative to the arm's start direction, rad.
 const CYMBALS: [([&str; 4], f64, f64); 2] = [
     (["CymbalBack", "DiscBack", "StemBack", "HookBack"], 38.0 * MM, 0.7),
     (["CymbalFront", "DiscFront", "StemFront", "HookFront"], 30.0 * MM, -0.8),
 ];
 const SHEET: f64 = 1.0 * MM;
-/// From a cymbal's hook down to it.
+/// Distance from a cymbal's hook down to it, m.
 const HANG: f64 = 26.0 * MM;
-/// How far the hammer would reach over its rim.
+/// Overlap of the hammer and a cymbal's rim, m.
 const OVER: f64 = 5.0 * MM;
 
 /// A plate of wood on a stem: an oval with a hole.
@@ -56,7 +55,7 @@ fn plate(names: [&'static str; 3], size: DVec2, thickness: f64, color: usize) ->
     hanging_plate(names, (extrude(&outline, &[hole], thickness, 0.15 * MM), WOOD, color), 34.0 * MM)
 }
 
-/// The arm with its loads, and where it hangs level: (b, −h).
+/// The arm with its loads, and its balance point (b, −h).
 fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
     let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
     let bow = |end: f64, start: f64| {
@@ -99,7 +98,7 @@ fn arm(brass: usize, black: usize, loads: [f64; 2]) -> (Piece, DVec2) {
     (piece, DVec2::new(whole.center.x, whole.center.y))
 }
 
-/// A disc on a stem, hung from the origin.
+/// A disc on a stem that hangs at the origin.
 fn cymbal([name, disc, stem, hook]: [&'static str; 4], radius: f64, brass: usize, steel: usize) -> Piece {
     let (edge, half) = (0.3 * SHEET, 0.5 * SHEET);
     let profile = [(0.0, -half), (radius - edge, -half), (radius, edge - half), (radius, half - edge)];
@@ -126,7 +125,7 @@ pub fn glb() -> Vec<u8> {
     let right =
         plate(["PlateRight", "PlateRightHook", "PlateRightStem"], DVec2::new(26.0, 44.0) * MM, 3.0 * MM, finishes.blue);
     let (arm, center) = arm(finishes.brass, finishes.black, [left.mass().mass, right.mass().mass]);
-    // It is set down OFF from where it is level, tilted as far as that tilts it; the foot of its line on the bar is at u.
+    // It starts at OFF from the balance point, with the tilt of that position; the bar is at u on its axis.
     let (level, high) = (center.x, -center.y - WIRE);
     let tilt = atan2(OFF, high);
     let turn = rotation(tilt * DVec3::Z);

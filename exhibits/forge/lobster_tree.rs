@@ -18,11 +18,11 @@ use soffio_authoring::piece::{BentWire, Piece, named};
 use soffio_authoring::stock_parts::{ALUMINIUM, MM, STEEL, ceiling};
 use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
-/// Sheet of all plates.
+/// Thickness of all plates, m.
 const SHEET: f64 = 0.6 * MM;
 const HOOK: DVec3 = DVec3::new(0.03, 0.76, 0.0);
 
-/// A leaf of `length` mm: a point, a belly, a blunt end; `flipped`, its point is on the other side.
+/// A leaf of `length` mm: a point, a belly, a blunt end; mirrored if `flipped`.
 fn leaf_outline(length: f64, flipped: bool) -> Vec<DVec2> {
     #[rustfmt::skip] // rows of a drawing
     let knots = [
@@ -41,7 +41,7 @@ fn leaf_outline(length: f64, flipped: bool) -> Vec<DVec2> {
     closed_spline(&knots, 8)
 }
 
-/// Weighs an outline in mm as a sheet with its stem, kg.
+/// Mass of an outline in mm as a sheet with its stem, kg.
 fn weight(outline: &[DVec2], holes: &[Vec<DVec2>]) -> f64 {
     let area = area_and_centroid(outline).0 - holes.iter().map(|hole| area_and_centroid(hole).0).sum::<f64>();
     area * MM * MM * SHEET * ALUMINIUM
@@ -59,7 +59,7 @@ fn plate(
     TreeNode::Plate(cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, mass, finish)), turn)
 }
 
-/// The red one: a tail of two lobes with a slit between.
+/// The red plate: a tail of two lobes with a slit between.
 fn tail(finish: usize) -> TreeNode {
     #[rustfmt::skip] // rows of a drawing
     let knots = [
@@ -74,7 +74,8 @@ fn tail(finish: usize) -> TreeNode {
     plate("Tail".to_owned(), (closed_spline(&knots, 8), holes), 30.0, 0.10, finish)
 }
 
-/// Three leaves on two wires: lengths of the leaves (mm), lengths of the wires (mm), where wires and leaves point (rad).
+/// Three leaves on two wires: lengths of the leaves (mm), lengths of the wires (mm), directions of wires and leaves
+/// (rad).
 struct Twig {
     leaves: [f64; 3],
     wires: [f64; 2],
@@ -129,7 +130,7 @@ fn trap() -> Piece {
     Piece { name: "Trap", parts: Vec::new(), wires, markers: vec![("TrapHook", DVec3::ZERO), ("TrapMiddle", middle)] }
 }
 
-/// Draws, balances and writes the model.
+/// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });

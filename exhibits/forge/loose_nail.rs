@@ -1,4 +1,4 @@
-//! A pendulum on a bead that a rail runs through: a nail that is loose along the rail, and fast again.
+//! A pendulum on a bead that slides on a rail: a nail that is loose along the rail, and fixed again.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
@@ -7,10 +7,10 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::revolve;
 use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
-/// Height of the rail, and half its length.
+/// Height of the rail, and half its length, m.
 const RAIL: f64 = 400.0 * MM;
 const HALF: f64 = 190.0 * MM;
-/// Depth of the plate's middle under the rail.
+/// Depth of the plate's centre under the rail, m.
 const DEPTH: f64 = 210.0 * MM;
 
 /// The model.
@@ -27,7 +27,7 @@ pub fn glb() -> Vec<u8> {
     for (name, x) in [("PostLeft", -HALF), ("PostRight", HALF)] {
         parts.push(part(name, rod(6.0 * MM, 8.0 * MM, RAIL + 8.0 * MM), x * DVec3::X, along, WOOD, finishes.black));
     }
-    // A mark where the nail is fast.
+    // Marker of the fixed nail.
     parts.push(part("Mark", rod(4.5 * MM, -2.0 * MM, 2.0 * MM), RAIL * DVec3::Y, lay, BRASS, finishes.brass));
     let stand = Piece { name: "Stand", parts, wires: Vec::new(), markers: vec![("Middle", RAIL * DVec3::Y)] };
     let bead = (0..=12).map(|k| {
@@ -47,7 +47,7 @@ pub fn glb() -> Vec<u8> {
         markers: Vec::new(),
     };
     let pieces = [(stand, none), (pendulum, RAIL * DVec3::Y)];
-    // From beside, so that a breath goes along the rail rather than across it.
+    // A side view, so that a breath goes along the rail.
     let target = DVec3::new(0.0, 0.22, 0.0);
     write(scene, "A loose nail", &pieces, target + 1.2 * DVec3::new(0.95, 0.18, 0.80).normalize(), target)
 }

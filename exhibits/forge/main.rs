@@ -1,5 +1,5 @@
-//! `cargo run -p soffio-forge`: makes every shipped model and breath again. With `-- --check` it writes nothing and
-//! fails where a file on disk is not what the forge makes.
+//! `cargo run -p soffio-forge` writes all shipped models and breaths. With `-- --check` it writes nothing, and fails
+//! where a file on disk differs.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -46,7 +46,7 @@ fn main() -> ExitCode {
     if stale == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
-/// What a curator or a reader wants to know of the balanced work.
+/// Prints the statics of a balanced mobile.
 fn report(mobile: &soffio_authoring::mobile::Mobile) {
     for (piece, _) in &mobile.pieces {
         println!("{:<12} {:7.3} g", piece.name, 1e3 * piece.mass().mass);

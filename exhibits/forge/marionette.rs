@@ -1,7 +1,7 @@
-//! A marionette after the Sicilian pupi, which are led by rods instead of strings: a cross bar, a rod to the head, one to
-//! each hand; limbs of beech with a ball or a hinge between each and the next.
+//! A marionette after the Sicilian pupi, which are moved by rods instead of strings: a cross bar, a rod to the head,
+//! one to each hand; limbs of beech joined by balls or hinges.
 //!
-//! Seen from the front (mm), l and r alike:
+//! Front view (mm), l and r are symmetric:
 //!
 //! ```text
 //!          452 hook
@@ -22,22 +22,22 @@ use soffio_authoring::stock_parts::{
 };
 
 const HOOK: DVec3 = DVec3::new(0.0, 452.0 * MM, 0.0);
-/// The bar's line under its hook, and where the hand rods hang on it.
+/// Height of the bar below its hook, and position of the hand rods on it.
 const BAR: f64 = -12.0 * MM;
 const BAR_END: f64 = 105.0 * MM;
 const CROWN: DVec3 = DVec3::new(0.0, 340.0 * MM, 0.0);
 const NECK: DVec3 = DVec3::new(0.0, 298.0 * MM, 0.0);
 const WAIST: DVec3 = DVec3::new(0.0, 224.0 * MM, 0.0);
-/// Of the right side, which is at +x.
+/// Points of the right side, at +x.
 const SHOULDER: DVec3 = DVec3::new(36.0 * MM, 290.0 * MM, 0.0);
 const ELBOW: DVec3 = DVec3::new(46.94 * MM, 240.2 * MM, 0.0);
 const HAND: DVec3 = DVec3::new(78.94 * MM, 261.55 * MM, 0.0);
-/// End of the rod that leads the hand: the thread between is drawn out by what it bears.
+/// End of the rod to the hand: the thread between is lengthened by its load.
 const ROD_END: DVec3 = DVec3::new(79.2 * MM, 263.0 * MM, 0.0);
-/// The knees are bent a little, so that what holds the feet does not hold the hips.
+/// The knees are slightly bent, so that forces on the feet do not hold the hips.
 const HIP: DVec3 = DVec3::new(11.0 * MM, 196.0 * MM, 0.0);
 const KNEE: DVec3 = DVec3::new(11.0 * MM, 132.85 * MM, 0.0);
-/// Height of the ankle, and how far it is behind the knee: the shin with its foot hangs in balance.
+/// Height of the ankle, and its distance behind the knee: the shin with its foot is balanced.
 const ANKLE: f64 = 70.0 * MM;
 const BEHIND: f64 = 5.7 * MM;
 
@@ -46,7 +46,7 @@ fn on(side: f64, point: DVec3) -> DVec3 {
     DVec3::new(side * point.x, point.y, point.z)
 }
 
-/// A limb from the origin along `to`, less a gap at each end.
+/// A limb from the origin along `to`, with a gap at each end.
 fn limb(name: &'static str, to: DVec3, radius: f64, gap: f64, finish: usize) -> Part {
     let length = to.length();
     let solid = rod(radius, gap - length, -gap);
@@ -90,7 +90,7 @@ fn bar(finishes: &Finishes) -> Piece {
     }
 }
 
-/// Names of what there is on each side.
+/// Names of the parts of a side.
 struct Side {
     sign: f64,
     rod: [&'static str; 3],
@@ -125,7 +125,7 @@ const SIDES: [Side; 2] = [
     },
 ];
 
-/// The five pieces of a side, with where they stand.
+/// The five pieces of a side at their positions.
 fn side(names: &Side, finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let at = |point| on(names.sign, point);
     let way = |from, to| at(to) - at(from);
@@ -183,7 +183,7 @@ fn side(names: &Side, finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     ]
 }
 
-/// The model: each piece hangs by its origin; where the next ones hang is marked.
+/// The model: each piece hangs at its origin, and the hooks of the next ones have markers.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

@@ -1,8 +1,8 @@
-//! The forge: makes every shipped model from stated dimensions.
+//! The forge: generates every shipped model from stated dimensions.
 //!
-//! `exhibits/` never holds geometry that nobody can remake: each `.glb` and each recorded breath there comes from
-//! this code, byte for byte. Invariant: no clock, no randomness without a stated seed, software transcendentals.
-//! What it shares with `soffio new` (sheet, wire, balance, glTF) is `soffio_authoring`.
+//! Each `.glb` and each breath in `exhibits/` comes from this code, byte for byte. Invariant: no clock, no unseeded
+//! randomness, software transcendentals. The code shared with `soffio new` (sheet, wire, balance, glTF) is
+//! `soffio_authoring`.
 
 use soffio_authoring::chimes;
 
@@ -35,19 +35,19 @@ pub mod universal_joint;
 pub mod windmill;
 pub mod windy_corner;
 
-/// A file that the forge makes.
+/// A generated file.
 #[derive(Debug)]
 pub struct Artifact {
-    /// Below `exhibits/`, with forward slashes.
+    /// Path below `exhibits/`, with forward slashes.
     pub path: &'static str,
-    /// What it holds.
+    /// Contents.
     pub bytes: Vec<u8>,
 }
 
-/// Makes everything.
+/// Generates all files.
 pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
     let (_, model) = steel_fish::glb();
-    // Speeds at the lips of a gentle, a normal and a strong breath; the seeds only tell them apart.
+    // Speeds at the lips of a gentle, a normal and a strong breath; the seeds make them differ.
     Ok(vec![
         Artifact { path: "axis-wheel/axis-wheel.glb", bytes: axis_wheel::glb() },
         Artifact { path: "billiards/billiards.glb", bytes: billiards::glb() },

@@ -1,4 +1,4 @@
-//! A nail on a way of its own: a swallow with a tail of three links goes round a figure of eight.
+//! A nail on a path: a swallow with a tail of three links moves along a figure of eight.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, sin};
 
@@ -8,17 +8,17 @@ use soffio_authoring::piece::{BentWire, Piece};
 use soffio_authoring::solid::extrude;
 use soffio_authoring::stock_parts::{MM, STEEL, WOOD, bent_rod_stand, finishes, part, rod, write};
 
-/// Half width and half depth of the eight, and its height. The sidecar says when the nail is where.
+/// Half width, half depth and height of the eight, m. The sidecar gives the nail's times.
 const EIGHT: DVec2 = DVec2::new(150.0 * MM, 60.0 * MM);
 const HEIGHT: f64 = 330.0 * MM;
 
-/// The way after a share of a round.
+/// The point of the path after a fraction of a round.
 pub fn place(share: f64) -> DVec3 {
     let turn = 2.0 * PI * share;
     DVec3::new(EIGHT.x * sin(turn), HEIGHT, EIGHT.y * sin(2.0 * turn))
 }
 
-/// The model: the swallow hangs by its origin.
+/// The model: the swallow hangs at its origin.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

@@ -1,8 +1,8 @@
-//! A mobile that makes sounds, after the idea of Alexander Calder's noise-mobiles: an original drawing. A vane turns a
-//! wire whose other end carries a hammer; about both, on a hoop that stands still, hang six brass gongs in a circle.
+//! A sounding mobile after the idea of Alexander Calder's noise-mobiles: an original drawing. A vane rotates a wire
+//! with a hammer at its other end; six brass gongs hang around both on a fixed hoop.
 //!
-//! The hammer's way lies inside the gongs' stems and meets the inner part of each gong, all of whose middles hang level.
-//! A disc's pitch goes as 1/d²: the diameters follow a scale of five notes and the octave.
+//! The hammer passes inside the gongs' stems and hits the inner part of each gong; the gongs' centres are level. A
+//! disc's frequency is proportional to 1/d²: the diameters follow a five-note scale and the octave.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
@@ -16,20 +16,20 @@ use soffio_authoring::stock_parts::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
 use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 const HOOK: DVec3 = DVec3::new(0.0, 0.66, 0.0);
-/// Of the hoop, and how far it is above the hook.
+/// Radius of the hoop, and its height above the hook, m.
 const HOOP: f64 = 195.0 * MM;
 const RAISED: f64 = 34.0 * MM;
-/// How far below the hook the middles of gongs and hammer are.
+/// Depth of the centres of gongs and hammer below the hook, m.
 const LEVEL: f64 = 112.0 * MM;
-/// The largest gong, the sheet of all, and the pitches, over the lowest.
+/// Diameter of the largest gong, thickness of all, and frequencies over the lowest.
 const LARGEST: f64 = 110.0 * MM;
 const SHEET: f64 = 1.5 * MM;
 const PITCHES: [f64; 6] = [1.0, 9.0 / 8.0, 5.0 / 4.0, 3.0 / 2.0, 5.0 / 3.0, 2.0];
-/// The hammer's head.
+/// Radius of the hammer's head, m.
 const HEAD: f64 = 8.0 * MM;
-/// Where the arm points at rest, rad.
+/// Direction of the arm at rest, rad.
 const TURN: f64 = -1.15;
-/// From the gong's rim to its hole.
+/// Distance of the hole from the gong's rim, m.
 const HOLE: f64 = 2.4 * MM;
 
 /// A ball on a stem.
@@ -49,7 +49,7 @@ fn hammer(stem: f64, finish: usize) -> Piece {
     }
 }
 
-/// The vane: a red flame, heavier than the hammer and nearer to the middle.
+/// The vane: a red flame, heavier than the hammer and nearer to the centre.
 fn vane(finish: usize) -> Piece {
     #[rustfmt::skip] // rows of a drawing
     let knots = [
@@ -61,7 +61,7 @@ fn vane(finish: usize) -> Piece {
     cut_plate(["Vane", "VaneHook", "VaneStem"], (closed_spline(&knots, 8), vec![eye]), 4.0, 26.0 * MM, stuff)
 }
 
-/// The hoop on three spokes, about the hook.
+/// The hoop on three spokes, around the hook.
 fn hoop() -> Vec<BentWire> {
     let wire = |name, points, radius| BentWire { name, points, radius, density: STEEL };
     let mut wires = vec![wire("Hoop", ring(RAISED * DVec3::Y, HOOP, DVec3::X, DVec3::Z, 72), 1.6 * MM)];
@@ -74,7 +74,7 @@ fn hoop() -> Vec<BentWire> {
     wires
 }
 
-/// Draws, balances and writes the model.
+/// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
@@ -94,7 +94,7 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     });
     let mut pieces = assemble_tree(HOOK, arm);
     for (k, pitch) in PITCHES.into_iter().enumerate() {
-        // Evenly about the circle; the hammer rests between the first and the last.
+        // Evenly on the circle; the hammer rests between the first and the last.
         let angle = PI + TURN + 2.0 * PI * (k as f64 + 0.5) / PITCHES.len() as f64;
         let at = DVec3::new(HOOP * cos(angle), RAISED, -HOOP * sin(angle));
         let diameter = LARGEST / pitch.sqrt();

@@ -1,7 +1,7 @@
-//! The pendulum of a shelf clock: a steel rod with a brass bob, hung at a bracket.
+//! The pendulum of a shelf clock: a steel rod with a brass bob on a bracket.
 //!
-//! A body that swings about a pivot beats like a simple pendulum of the length l = I/(m d), I about the pivot, d the
-//! depth of its centre: T = 2π √(l/g). The bob's place solves for l.
+//! A body that swings about a pivot has the period of a simple pendulum of length l = I/(m d), with I about the pivot
+//! and d the depth of its centre of mass: T = 2π √(l/g). The position of the bob solves for l.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI};
 
@@ -12,7 +12,7 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, MM, ROUND, STEEL, bent_rod_stand, finishes, part, rod, write, y_to_z,
 };
 
-/// To and fro, s: 6720 beats an hour.
+/// Period, s: 6720 beats an hour.
 const PERIOD: f64 = 2.0 * 3600.0 / 6720.0;
 /// Length of the simple pendulum of that period under 9.81 m/s²: 285.3 mm.
 const LENGTH: f64 = 9.81 * PERIOD * PERIOD / (4.0 * PI * PI);
@@ -42,7 +42,7 @@ fn pendulum(finishes: &Finishes) -> Piece {
         let mass = piece.mass();
         mass.inertia_about(DVec3::ZERO).z_axis.z / (mass.mass * -mass.center.y)
     };
-    // A longer rod makes the same difference longer a pendulum, nearly.
+    // A rod longer by δ makes the pendulum longer by nearly δ.
     let depth = (0..40).fold(LENGTH, |depth, _| depth + LENGTH - length(&with_bob(depth)));
     with_bob(depth)
 }
@@ -55,7 +55,7 @@ pub fn glb() -> Vec<u8> {
     let mut stand = bent_rod_stand(pivot + 8.0 * MM * DVec3::Y, DVec2::new(0.0, -70.0 * MM), finishes.black);
     let knife = part("Knife", rod(2.0 * MM, -9.0 * MM, 9.0 * MM), pivot, y_to_z(), STEEL, finishes.steel);
     stand.parts.push(knife);
-    // From the side, so that the breath goes along the swing and not across it.
+    // A side view, so that the breath goes along the swing.
     let target = DVec3::new(0.0, 0.22, 0.0);
     let away = DVec3::new(PI / 3.0, 0.12, 0.62).normalize();
     write(scene, "Pendulum", &[(stand, DVec3::ZERO), (pendulum(&finishes), pivot)], target + 1.15 * away, target)

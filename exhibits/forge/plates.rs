@@ -1,4 +1,4 @@
-//! A small mobile of three steel discs that hang so near to each other that a breath makes them meet and ring.
+//! A small mobile of three steel discs that hang so close together that a breath makes them touch and ring.
 
 use soffio_math::{DVec2, DVec3, PI, Pose};
 
@@ -7,14 +7,14 @@ use soffio_authoring::hanging::disc;
 use soffio_authoring::mobile::{CascadeBranches, Mobile, cascade};
 use soffio_authoring::stock_parts::{MM, STEEL, bent_rod_stand, finishes};
 
-/// Where the mobile hangs.
+/// Position of the mobile's hook.
 const HOOK: f64 = 330.0 * MM;
 const SHEET: f64 = 0.6 * MM;
-/// The lower branch against the upper one, rad: so that the middle disc hangs before the large one's rim, and a breath that
-/// drives it back makes them meet.
+/// Rotation of the lower branch relative to the upper one, rad: the middle disc hangs in front of the large one's rim,
+/// so a breath drives it against that rim.
 const LOWER_YAW: f64 = 0.6;
 
-/// Draws, balances and writes the model.
+/// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

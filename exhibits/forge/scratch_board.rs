@@ -1,4 +1,4 @@
-//! A board of beech in a frame, and a quill that stands on it with its nib.
+//! A board of beech in a frame, and a quill with its nib on it.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
@@ -11,9 +11,9 @@ use soffio_authoring::stock_parts::{MM, ROUND, STEEL, WOOD, finishes, part, rod,
 /// Board: length, width, thickness, and the height of its upper face.
 const SIZE: [f64; 3] = [360.0 * MM, 240.0 * MM, 12.0 * MM];
 const TOP: f64 = 40.0 * MM;
-/// Of the nib, which is a ball; its middle is the origin of the quill.
+/// Radius of the nib, a ball whose centre is the origin of the quill, m.
 const NIB: f64 = 1.5 * MM;
-/// How far the quill leans back, rad, and how long its shaft is.
+/// Tilt of the quill to the back, rad, and length of its shaft, m.
 const LEAN: f64 = 0.42;
 const SHAFT: f64 = 150.0 * MM;
 
@@ -46,7 +46,7 @@ pub fn glb() -> Vec<u8> {
     let foot = part("Foot", slab(length, 0.18, 0.02), DVec3::new(0.0, 0.01, 0.0), flat, WOOD, finishes.black);
     let stand = Piece { name: "Stand", parts: vec![foot], wires: Vec::new(), markers: Vec::new() };
 
-    // The quill leans back and to the right; its frame stands upright all the same.
+    // The quill is tilted to the back and to the right; its frame is upright.
     let lean = rotation(DVec3::new(-LEAN, 0.0, -0.6 * LEAN));
     let up = lean * DVec3::Y;
     let point = (0..=8).map(|k| {

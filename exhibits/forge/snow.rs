@@ -1,8 +1,8 @@
-//! Thirty-nine discs, pale as ice, on dark wires: three chains that whirl downwards, the discs less and less. After the idea of
-//! Alexander Calder's snow flurries (from 1948 on): an original drawing.
+//! Thirty-nine ice-pale discs on dark wires: three chains that whirl downwards, with ever smaller discs. After the idea
+//! of Alexander Calder's snow flurries (from 1948 on): an original drawing.
 //!
-//! The discs are fixed to their wires, so that a flake turns with its bough; each bough of a chain leads on by nearly the
-//! golden angle, as seeds lie in a flower, so that no disc hangs right below another.
+//! The discs are fixed to their wires, so that they rotate with their branch. Successive branches of a chain differ by
+//! nearly the golden angle, as seeds in a flower, so that no disc hangs right below another.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, exp, ln, rotation};
 
@@ -14,23 +14,23 @@ use soffio_authoring::solid::extrude;
 use soffio_authoring::stock_parts::{ALUMINIUM, MM, ceiling};
 use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
-/// Boughs of a chain; it has one disc more.
+/// Branches of a chain; it has one disc more.
 const CHAIN: usize = 12;
-/// Sheet of the discs.
+/// Thickness of the discs, m.
 const SHEET: f64 = 0.8 * MM;
-/// Diameters of a chain's first and last disc, mm, and lengths of its first and last bough.
+/// Diameters of a chain's first and last disc, and lengths of its first and last branch, mm.
 const DISCS: [f64; 2] = [66.0, 20.0];
 const LENGTHS: [f64; 2] = [208.0, 70.0];
-/// Of the centre of what a bough carries below its loop, m.
+/// Depth of the centre of a branch's loads below its loop, m.
 const DEPTH: f64 = 11.0 * MM;
 const HOOK: DVec3 = DVec3::new(-0.04, 0.82, 0.0);
 
-/// From the first to the last of a row in equal ratios.
+/// Term `i` of a geometric sequence from the first to the last.
 fn graded([first, last]: [f64; 2], share: f64) -> f64 {
     first * exp(share * ln(last / first))
 }
 
-/// Disc `i` of a chain, fixed by its middle, its face leaning about the wire.
+/// Disc `i` of a chain, fixed at its centre, its face tilted about the wire.
 fn flake(chain: char, i: usize, lean: f64, finish: usize) -> Part {
     let radius = 0.5 * graded(DISCS, i as f64 / CHAIN as f64) * MM;
     let outline = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.0, 40);
@@ -43,9 +43,9 @@ fn flake(chain: char, i: usize, lean: f64, finish: usize) -> Part {
     }
 }
 
-/// A chain whose first bough points along `turn`; it whirls to the right or, `sense` −1, to the left.
+/// A chain whose first branch points along `turn`; it whirls to the right or, for `sense` −1, to the left.
 fn chain(name: char, turn: f64, sense: f64, finish: usize) -> TreeNode {
-    // Leaning now to one side, now to the other: some are seen as discs, some as lines.
+    // Tilted alternately to both sides: some are seen as discs, some as lines.
     let lean = |i: usize| [-0.35, 0.55, -0.75, 0.25][i % 4];
     let mut below = TreeNode::Fixed(flake(name, CHAIN, lean(CHAIN), finish));
     for k in (0..CHAIN).rev() {
@@ -63,7 +63,7 @@ fn chain(name: char, turn: f64, sense: f64, finish: usize) -> TreeNode {
     below
 }
 
-/// Draws, balances and writes the model.
+/// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });

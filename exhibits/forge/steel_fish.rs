@@ -10,10 +10,10 @@
 //!                       ══╩══
 //! ```
 //!
-//! Frames: every piece has x along its rod, y up, z towards the visitor, and its origin at the point it hangs on.
+//! Frames: every piece has x along its rod, y up, z towards the visitor, and its origin at its hook.
 //!
-//! Balance: the branches by [`branch`]; for the boom the unknown is the length of the lead weight. It is stable
-//! because the centre of all that hangs is below the point, h = 30 mm: it tilts with the period 2π √(I/(M g h)).
+//! Balance: the branches by [`branch`]; for the boom the unknown is the length of the lead weight. It is stable because
+//! the centre of mass of all loads is below the point, h = 30 mm: it tilts with the period 2π √(I/(M g h)).
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
 
@@ -26,45 +26,45 @@ use soffio_authoring::outline::{
 use soffio_authoring::piece::{BentWire, Part, Piece, load, yaw};
 use soffio_authoring::solid::{Solid, revolve, revolve_ring};
 
-/// m.
+/// A millimetre, m.
 const MM: f64 = 1e-3;
-/// kg.
+/// A gram, kg.
 const GRAM: f64 = 1e-3;
-/// Corners of a circle that is seen close.
+/// Segments of a circle.
 const ROUND: usize = 64;
 
-/// Densities, kg/m³; the sidecar's materials say the same.
+/// Densities, kg/m³, as the sidecar's materials.
 const ALUMINIUM: f64 = 2700.0;
 const LEAD: f64 = 11_300.0;
 const BRASS: f64 = 8500.0;
 
-/// Sheet of all plates.
+/// Thickness of all plates, m.
 const SHEET: f64 = 0.5 * MM;
 
-/// Height of the needle's point above the floor.
+/// Height of the needle's point above the floor, m.
 const POINT_HEIGHT: f64 = 430.0 * MM;
-/// The boom: steel rod of this radius.
+/// Radius of the boom, a steel rod, m.
 const BOOM_RADIUS: f64 = 1.0 * MM;
-/// Centre of the fish from the point, along the boom.
+/// Distance of the fish's centre from the point along the boom, m.
 const FISH_ARM: f64 = -175.0 * MM;
-/// Mass of the fish plate.
+/// Mass of the fish plate, kg.
 const FISH_MASS: f64 = 27.3 * GRAM;
-/// Mass of the red plate.
+/// Mass of the red plate, kg.
 const RED_MASS: f64 = 6.0 * GRAM;
-/// Centre of the lead weight from the point, along the boom.
+/// Distance of the lead weight's centre from the point along the boom, m.
 const LEAD_ARM: f64 = 92.0 * MM;
-/// Where B2 hangs.
+/// Position of the hook of B2.
 const TIP_ARM: f64 = 317.0 * MM;
 
-/// Where the pieces point at rest, rad: hooks turn freely, so this is choice. Seen from the front the white disc
-/// hangs before the long end of the red plate, a finger's breadth from it.
+/// Directions of the pieces at rest, rad, which are free to choose, as hooks rotate freely. Seen from the front, the
+/// white disc hangs a finger's breadth in front of the long end of the red plate.
 const B2_YAW: f64 = -0.10;
 const RED_YAW: f64 = -0.10;
 const B4_YAW: f64 = -0.52;
 const ORANGE_YAW: f64 = -0.45;
 const WHITE_YAW: f64 = -0.05;
 
-/// Finishes of the meshes; paint is dielectric. How the wires look stands in the sidecar.
+/// Finishes of the meshes; paint is dielectric. The sidecar has the finishes of the wires.
 struct Finishes {
     black: usize,
     red: usize,
@@ -88,7 +88,7 @@ fn finishes(scene: &mut Scene) -> Finishes {
     }
 }
 
-/// Draws, balances and writes the model.
+/// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let fish = draw(&finishes(&mut scene));
@@ -96,7 +96,7 @@ pub fn glb() -> (Mobile, Vec<u8>) {
     for (piece, pose) in &fish.pieces {
         piece.write(&mut scene, *pose);
     }
-    // A normal lens a little left of the work and above it, some air on all sides.
+    // A normal lens slightly left of the mobile and above it, with margins on all sides.
     let target = DVec3::new(0.058, 0.236, 0.0);
     let away = DVec3::new(-0.24, 0.13, 1.0).normalize();
     scene.camera("CamFront", target + 1.20 * away, target, 27.0 * PI / 180.0, 16.0 / 9.0);
@@ -156,7 +156,7 @@ fn draw(finishes: &Finishes) -> Mobile {
     }
 }
 
-/// Footing of turned steel, a slender post with three stays, and the needle that carries the cup.
+/// Base of turned steel, a slender post with three stays, and the needle under the cup.
 fn stand(finishes: &Finishes) -> Piece {
     let mm = |r: f64, y: f64| DVec2::new(r, y) * MM;
     let top = POINT_HEIGHT / MM;
@@ -231,7 +231,7 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
         wires: vec![BentWire { name: "BoomRod", points: rod, radius: BOOM_RADIUS, density: STEEL }],
         markers: vec![("BoomPivot", DVec3::ZERO), ("BoomTip", tip)],
     };
-    // What the lead must weigh for Σ m x = 0, and where across the rod it must sit for Σ m z = 0.
+    // Moment of the lead for Σ m x = 0, and its position across the rod for Σ m z = 0.
     let others = boom.mass().combine(&load(tip_load, tip));
     let mass = -others.mass * others.center.x / lead_point.x;
     let across = -others.mass * others.center.z / mass;
@@ -245,14 +245,14 @@ fn boom(finishes: &Finishes, tip_load: f64) -> Piece {
     boom
 }
 
-/// Where a part threaded on `rod` sits at x = `along`, and how it turns to follow the rod.
+/// Position of a part threaded on `rod` at x = `along`, and its rotation along the rod.
 fn threaded(rod: &[DVec3], along: f64) -> (DVec3, DQuat) {
     let i = rod.windows(2).position(|w| w[0].x <= along && along < w[1].x).unwrap_or(0);
     let step = rod[i + 1] - rod[i];
     (rod[i] + step * ((along - rod[i].x) / step.x), DQuat::from_rotation_arc(DVec3::X, step.normalize()))
 }
 
-/// A bored barrel of lead of just this mass, lying along x. Its volume grows linearly with its length.
+/// A bored barrel of lead with exactly this mass, along x. Its volume grows linearly with its length.
 fn lead_weight(mass: f64) -> Solid {
     let barrel = |length: f64| {
         let (bore, radius, edge, half) = (BOOM_RADIUS, 4.6 * MM, 1.0 * MM, 0.5 * length);
@@ -273,7 +273,7 @@ fn lead_weight(mass: f64) -> Solid {
     barrel(short + (mass - light) / (heavy - light) * (long - short))
 }
 
-/// The fish: a leaf with an open mouth, fins and a forked tail, cut through by an eye, a gill and three ribs.
+/// The fish: a leaf with an open mouth, fins and a forked tail, with holes for an eye, a gill and three ribs.
 fn fish_plate() -> Solid {
     #[rustfmt::skip] // rows of a drawing
     let knots = [
@@ -297,7 +297,7 @@ fn fish_plate() -> Solid {
     to_mass(outline, holes.to_vec(), SHEET, (STEEL, FISH_MASS))
 }
 
-/// The red plate: a wing, its long end towards the discs. The hole sits above the centre, so it hangs level.
+/// The red plate: a wing, its long end towards the discs. The hole is above the centre of mass, so it hangs level.
 fn red_plate(finish: usize) -> Piece {
     #[rustfmt::skip] // rows of a drawing
     let knots = [
@@ -307,11 +307,11 @@ fn red_plate(finish: usize) -> Piece {
     ];
     let outline = closed_spline(&knots, 8);
     let (_, center) = area_and_centroid(&outline);
-    // Drawn about the hole: as far above the centre as the sheet allows.
+    // Drawn about the hole, as far above the centre of mass as the sheet allows.
     let from_hole = outline.iter().map(|p| *p - center - DVec2::new(0.0, 9.0)).collect();
     let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS), 0.0, ROUND / 4);
     let mut solid = to_mass(from_hole, vec![hole], SHEET, (STEEL, RED_MASS));
-    // The hole itself moved the centre by some micrometres; take them out.
+    // The hole itself moves the centre by some micrometres; correct for them.
     solid = {
         let x = solid.mass(STEEL).center.x;
         solid.translated(DVec3::new(-x, 0.0, 0.0))

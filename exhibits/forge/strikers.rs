@@ -1,6 +1,7 @@
-//! A bell, a drum, cast metal and wood in a row, and a mallet before each, hung from one rail so that a breath makes it hit.
+//! A bell, a drum, a casting and a piece of wood in a row, and a mallet in front of each: a breath makes the mallets
+//! hit.
 //!
-//! Seen from the front (mm): the rail is 400 high, a mallet's head 150 below it, the instruments' faces 24 behind the heads.
+//! Front view (mm): the rail is 400 high, the mallets' heads 150 below it, the instruments' faces 24 behind the heads.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
@@ -11,16 +12,16 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write, y_to_z,
 };
 
-/// Height of the rail.
+/// Height of the rail, m.
 const RAIL: f64 = 400.0 * MM;
-/// From the rail down to the middle of a mallet's head, and that head's radius.
+/// Distance from the rail down to the centre of a mallet's head, and radius of that head, m.
 const HEAD: f64 = 150.0 * MM;
 const RADIUS: f64 = 11.0 * MM;
-/// Between head and instrument at rest.
+/// Gap between head and instrument at rest, m.
 const GAP: f64 = 24.0 * MM;
-/// From the middle of one to the next.
+/// Distance between the centres of neighbours, m.
 const PITCH: f64 = 135.0 * MM;
-/// Depth of the instruments' faces behind the mallets' plane.
+/// Depth of the instruments' faces behind the mallets' plane, m.
 const FACE: f64 = -(RADIUS + GAP);
 
 /// A ball of beech about the origin.
@@ -32,7 +33,7 @@ fn ball(radius: f64) -> soffio_authoring::solid::Solid {
     revolve(&arc.collect::<Vec<_>>(), ROUND)
 }
 
-/// A mallet in its own frame, hung from the origin: stick, head, and a sail below it.
+/// A mallet in its own frame, hanging at the origin: stick, head, and a sail below it.
 fn mallet(names: [&'static str; 4], finishes: &Finishes, color: usize) -> Piece {
     let [name, stick, head, sail] = names;
     let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
@@ -53,12 +54,12 @@ fn instrument(name: &'static str, parts: Vec<Part>) -> Piece {
     Piece { name, parts, wires: Vec::new(), markers: Vec::new() }
 }
 
-/// The four things to be struck, their frames at the heads' height in the plane of their faces.
+/// The four instruments, their frames at the heads' height in the plane of their faces.
 fn instruments(finishes: &Finishes) -> [Piece; 4] {
     let (none, along) = (DVec3::ZERO, DQuat::IDENTITY);
     let bell = [(44.0, -38.0), (42.0, -34.0), (30.0, -18.0), (23.0, 6.0), (20.0, 26.0), (14.0, 34.0), (0.0, 36.0)];
     let inside = [(0.0, 32.0), (11.0, 30.0), (16.5, 24.0), (19.5, 6.0), (26.0, -17.0), (38.0, -33.0), (40.0, -38.0)];
-    // Walked from the axis inside, round the mouth, to the axis outside: the material lies on the left.
+    // Profile from the axis inside, around the mouth, to the axis outside: the material is on the left.
     let bell: Vec<DVec2> = inside.iter().chain(&bell).map(|&(r, y)| DVec2::new(r, y) * MM).collect();
     let bell = revolve(&bell, 2 * ROUND);
     let drum = rod(52.0 * MM, -64.0 * MM, 0.0);
@@ -89,7 +90,7 @@ fn instruments(finishes: &Finishes) -> [Piece; 4] {
     ]
 }
 
-/// Middle of the k-th instrument and mallet along the rail, m.
+/// Position of the k-th instrument and mallet along the rail, m.
 fn at(k: usize) -> f64 {
     (k as f64 - 1.5) * PITCH
 }
@@ -138,7 +139,7 @@ fn stand(finishes: &Finishes) -> Piece {
     .into_iter()
     .enumerate()
     {
-        // What the bell hangs from stands behind it.
+        // The bell's support is behind it.
         let behind = if k == 0 { back - 34.0 * MM } else { back };
         parts.push(part(
             name,
@@ -176,7 +177,7 @@ pub fn glb() -> Vec<u8> {
     ];
     let colors = [finishes.blue, finishes.white, finishes.red, finishes.blue];
     for (k, (thing, names)) in instruments(&finishes).into_iter().zip(mallets).enumerate() {
-        // The bell is round: where the head meets it, it is 27 mm from its axis.
+        // The bell is round: where the head touches it, it is 27 mm from its axis.
         let depth = if k == 0 { FACE - 24.5 * MM } else { FACE };
         pieces.push((thing, DVec3::new(at(k), height, depth)));
         pieces.push((mallet(names, &finishes, colors[k]), DVec3::new(at(k), RAIL, 0.0)));

@@ -1,5 +1,5 @@
-//! The case of Terry's clock: a shelf case after his pillar and scroll, with glass at its sides and the door left open, so
-//! that the works are seen and a breath comes in. Nothing of it moves and nothing touches it.
+//! The case of Terry's clock: a shelf case after his pillar and scroll, with glass at its sides and the door open, so
+//! that the movement is visible and a breath comes in. Nothing of it moves and nothing touches it.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
@@ -12,17 +12,17 @@ use soffio_authoring::stock_parts::{BRASS, Finishes, MM, ROUND, WOOD, part, ring
 
 /// The inside: left, right, bottom, top, back and front, m.
 const INSIDE: ([f64; 2], [f64; 2], [f64; 2]) = ([-0.200, 0.220], [0.034, 0.492], [-0.098, 0.050]);
-/// Of boards.
+/// Thickness of boards, m.
 const BOARD: f64 = 9.0 * MM;
-/// How far the mouldings stand out.
+/// Width of the mouldings, m.
 const LEDGE: f64 = 14.0 * MM;
-/// The chapter ring, and where it stands: before the wheels and behind the hands.
+/// Chapter ring, and its position in front of the wheels and behind the hands.
 const CHAPTERS: (f64, f64) = (82.0 * MM, 101.0 * MM);
 const DIAL: f64 = 10.0 * MM;
-/// Of the numerals' strokes.
+/// Width of the numerals' strokes, m.
 const STROKE: f64 = 1.7 * MM;
 
-/// What the case is made of.
+/// Finishes of the case.
 struct Woods {
     mahogany: usize,
     paint: usize,
@@ -109,12 +109,12 @@ fn rectangle(width: f64, height: f64) -> Polygon {
     [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| DVec2::new(x, y)).into()
 }
 
-/// A slender turned pillar with brass at both ends, before one side.
+/// A slender turned pillar with brass at both ends, in front of one side.
 fn pillar(x: f64, name: &'static str, woods: &Woods, finishes: &Finishes) -> Vec<Part> {
     let [low, high] = INSIDE.1;
     let foot = DVec3::new(x, low, INSIDE.2[1] + 4.0 * MM);
     let long = size([low, high]);
-    // A column swells a little below its middle.
+    // A column swells slightly below its middle (entasis).
     let shaft: Vec<DVec2> = (0..=24)
         .map(|k| {
             let s = f64::from(k) / 24.0;
@@ -210,7 +210,7 @@ fn dial(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
     {
         let angle = -2.0 * PI * hour as f64 / 12.0;
         for stroke in strokes(numeral) {
-            // Numerals stand upright at twelve and turn with the ring.
+            // Numerals are upright at twelve and rotate along the ring.
             let turn = |p: DVec2| DVec2::from_angle(angle).rotate(p + DVec2::Y * (CHAPTERS.0 + 7.6 * MM));
             join(&mut ink, &extrude(&stroke.into_iter().map(turn).collect(), &[], 0.3 * MM, 0.05 * MM));
         }
@@ -243,7 +243,7 @@ fn strokes(numeral: &str) -> Vec<Polygon> {
     out
 }
 
-/// Adds a solid to another that it does not touch.
+/// Appends a solid that does not touch the first.
 fn join(all: &mut Solid, one: &Solid) {
     let first = all.positions.len() as u32;
     all.positions.extend(&one.positions);

@@ -11,19 +11,19 @@
 //!
 //! # Escapement
 //!
-//! All in one plane, the wheel turning clockwise about the origin. N teeth end on the circle of radius R. The anchor
-//! spans `SPAN` teeth; its pallets work at E and X, the angle β = π SPAN/N to the left and right of the top, and its
-//! arbor lies where the tangents there meet, R/cos β above the wheel's, at the distance a = R tan β from both. With n
-//! the outward radius and t the way of the teeth at either place:
+//! All in one plane, the wheel rotating clockwise about the origin. N teeth end on the circle of radius R. The anchor
+//! spans `SPAN` teeth. Its pallets work at E and X, the angle β = π SPAN/N to the left and right of the top. Its arbor
+//! is where the tangents there meet, R/cos β above the wheel's, at the distance a = R tan β from both. With n the
+//! outward radius and t the direction of motion of the teeth at either place:
 //!
 //! ```text
 //! face of a pallet   from its tip along f = −sin γ t + cos γ n, towards the teeth m = −cos γ t − sin γ n
-//! lift               the tip lies at E (X) when the pendulum has carried it out by ψ
+//! lift               the tip is at E (X) when the pendulum has carried it out by ψ
 //! drop δ             a tooth that leaves a tip falls by δ on the other side; while one face works the teeth
-//!                    go on by s = π R/N − δ and the pallet out by p = 2 ψ a, and s = p tan γ
+//!                    advance by s = π R/N − δ and the pallet moves out by p = 2 ψ a, and s = p tan γ
 //! ```
 //!
-//! Beyond ±ψ the face goes on pushing: the wheel recoils.
+//! Beyond ±ψ the face continues to push: the wheel recoils.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
@@ -39,7 +39,7 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, finishes, meshing_phase, part, ring, rod, slab, spur_gear, y_to_z,
 };
 
-/// Teeth of the wheels and of the pinions that they drive.
+/// Teeth of the wheels and of their pinions.
 pub const GREAT: (usize, usize) = (64, 8);
 pub(crate) const MINUTE: (usize, usize) = (64, 8);
 pub(crate) const THIRD: (usize, usize) = (60, 6);
@@ -47,37 +47,38 @@ pub(crate) const ESCAPE: usize = 42;
 /// Motion work: cannon and minute wheel, its pinion and the hour wheel.
 pub const CANNON: (usize, usize) = (12, 36);
 pub(crate) const HOUR: (usize, usize) = (10, 40);
-/// R: where the teeth of the escape wheel end.
+/// R: radius of the circle on which the teeth of the escape wheel end, m.
 pub const TIP: f64 = 22.5 * MM;
-/// Teeth that the anchor spans.
+/// Number of teeth that the anchor spans.
 pub const SPAN: f64 = 7.5;
-/// Radius of the ends of teeth.
+/// Radius of the tooth ends, m.
 pub const TOOTH: f64 = 0.1 * MM;
-/// δ.
+/// Drop δ, m.
 pub const DROP: f64 = 0.47 * MM;
-/// ψ: half the angle through which a pallet is pushed.
+/// ψ: half the angle through which a pallet is pushed, rad.
 pub const LIFT: f64 = 2.25 * PI / 180.0;
-/// Of a pallet.
+/// Thickness of a pallet, m.
 const FACE: f64 = 5.0 * MM;
 const THICKNESS: f64 = 0.6 * MM;
 const WIDTH: f64 = 3.0 * MM;
 
-/// Length of the simple pendulum that beats as this one does by itself, m. It is rated as a clockmaker rates, by the mean of
-/// twelve hours with all their blows (`in_half_a_day_it_strikes_seventy_eight_blows` in tests/suite/clock.rs prints the rate):
-/// what gains g seconds a day gets its bob lower by 2 g/86,400 of the length. The recoil hurries the pendulum, the more the
-/// harder the train drives, and more than its swing holds it back. While the pin lifts the flirt, ten minutes before each
-/// hour, the train has less to give and the clock loses, by 6 s a day at most; for most of the hour it gains 1 s a day.
+/// Length of the simple pendulum with the period of this one, m. It is regulated by the mean rate of twelve hours with
+/// all their strikes (`in_half_a_day_it_strikes_seventy_eight_blows` in tests/suite/clock.rs prints the rate): to
+/// correct a gain of g seconds a day, the bob is lowered by 2 g/86,400 of the length. The recoil speeds the pendulum
+/// up, the more the harder the train drives, and more than its amplitude slows it. While the pin lifts the flirt, ten
+/// minutes before each hour, the train has less power and the clock loses, by 6 s a day at most; for most of the hour
+/// it gains 1 s a day.
 const LENGTH: f64 = 290.3952 * MM;
 const BOB_RADIUS: f64 = 20.0 * MM;
-/// Where a leaf of sheet brass sits on the rod, m below the pivot. It stands askew, so that a breath from the front goes
-/// aside and takes the pendulum with it; the leaf is ours, not Terry's.
+/// Position of a leaf of sheet brass on the rod, m below the pivot. It is oblique, so that a breath from the front is
+/// deflected and pushes the pendulum; the leaf is an addition to Terry's design.
 const LEAF: f64 = 200.0 * MM;
 
 /// The time that the hands show at the start.
 const HOURS: usize = 10;
 const MINUTES: f64 = 50.0;
 
-/// Where the arbors are, m, in the plane of the plates.
+/// Positions of the arbors in the plane of the plates, m.
 pub fn places() -> [DVec3; 5] {
     let apart = |(wheel, pinion): (usize, usize)| 0.5 * MODULE * (wheel + pinion) as f64;
     let great = CENTER + apart(GREAT) * DVec3::new(-0.6, -0.8, 0.0);
@@ -89,7 +90,7 @@ pub fn places() -> [DVec3; 5] {
     [great, CENTER, third, escape, anchor]
 }
 
-/// β.
+/// β, rad.
 fn half_span() -> f64 {
     PI * SPAN / ESCAPE as f64
 }
@@ -99,12 +100,12 @@ fn direction(angle: f64) -> DVec3 {
     DVec3::new(cos(angle), sin(angle), 0.0)
 }
 
-/// Where the minute hand points at the start, rad from x.
+/// Direction of the minute hand at the start, rad from x.
 pub fn minute_hand() -> f64 {
     0.5 * PI - 2.0 * PI * MINUTES / 60.0
 }
 
-/// Where the hour hand points at the start.
+/// Direction of the hour hand at the start, rad from x.
 pub fn hour_hand() -> f64 {
     0.5 * PI - 2.0 * PI * (HOURS as f64 + MINUTES / 60.0) / 12.0
 }
@@ -119,7 +120,7 @@ pub fn hand(name: &'static str, [length, width]: [f64; 2], out: f64, z: f64, ang
 pub fn escape_wheel() -> Solid {
     let step = 2.0 * PI / ESCAPE as f64;
     let root = TIP - 3.4 * MM;
-    // (radius, way along the circle of the tips, against the turning), counterclockwise.
+    // (radius, distance along the tip circle against the direction of rotation), counter-clockwise.
     let corners = [(root, -TOOTH), (TIP + TOOTH, -TOOTH), (TIP + TOOTH, TOOTH), (root, 1.5 * MM)];
     let outline: Polygon = (0..ESCAPE)
         .flat_map(|k| corners.map(|(r, way)| (r, 0.5 * PI + step * k as f64 + way / r)))
@@ -134,8 +135,8 @@ pub fn escape_wheel() -> Solid {
     extrude(&outline, &holes, 1.2 * MM, 0.03 * MM)
 }
 
-/// Where the pallet on one side (−1 at E, +1 at X) has its middle in the frame of the anchor at rest, and how it is
-/// turned: its x along the face, its y away from the teeth.
+/// Centre of the pallet on one side (−1 at E, +1 at X) in the frame of the anchor at rest, and its rotation: x along
+/// the face, y away from the teeth.
 fn pallet(side: f64) -> Pose {
     let beta = half_span();
     let n = DVec3::new(side * sin(beta), cos(beta), 0.0);
@@ -146,18 +147,18 @@ fn pallet(side: f64) -> Pose {
     let f = -sin(gamma) * t + cos(gamma) * n;
     let tip = n * TIP - DVec3::Y * TIP / cos(beta) - m * TOOTH;
     let middle = tip + 0.5 * FACE * f - 0.5 * THICKNESS * m;
-    // Carried out by ψ: clockwise at E, counterclockwise at X. Undo it.
+    // Undo the rotation by ψ: clockwise at E, counter-clockwise at X.
     let back = rotation(DVec3::Z * (-side * LIFT));
     Pose { rotation: back * rotation(DVec3::Z * atan2(f.y, f.x)), position: back * middle }
 }
 
-/// How far the escape wheel is turned at the start: its teeth stand free of the anchor, swung by 4° to the left.
+/// Rotation of the escape wheel at the start: its teeth are clear of the anchor, which is swung by 4° to the left.
 pub fn escape_phase() -> f64 {
     half_span() + 1.8 * MM / TIP
 }
 
-/// The pendulum in its own frame, the pivot at the origin, that swings as a simple one of this length (m); with a leaf, where
-/// a breath is to move it.
+/// The pendulum in its own frame, the pivot at the origin, with the period of a simple one of this length (m); with a
+/// leaf, where a breath should move it.
 pub fn pendulum(finishes: &Finishes, simple: f64, with_leaf: bool) -> Piece {
     let b = BOB_RADIUS;
     let lens = [(0.0, -5.5), (9.0, -5.2), (15.0, -3.8), (1e3 * b, 0.0), (15.0, 3.8), (9.0, 5.2), (0.0, 5.5)];
@@ -180,7 +181,7 @@ pub fn pendulum(finishes: &Finishes, simple: f64, with_leaf: bool) -> Piece {
         let mass = piece.mass();
         mass.inertia_about(DVec3::ZERO).z_axis.z / (mass.mass * -mass.center.y)
     };
-    // A longer rod makes the same difference longer a pendulum, nearly.
+    // A rod longer by δ makes the pendulum longer by nearly δ.
     let depth = (0..40).fold(simple, |depth, _| depth + simple - length(&with_bob(depth)));
     let mut piece = with_bob(depth);
     piece.markers.push(("RodSlot", DVec3::new(0.0, -45.0 * MM, 0.0)));
@@ -225,10 +226,10 @@ pub fn anchor(finishes: &Finishes) -> Piece {
     piece
 }
 
-/// A piece and where its frame is in the model.
+/// A piece and the position of its frame in the model.
 type Placed = (Piece, Pose);
 
-/// Upright at this place.
+/// Upright at this position.
 fn at(position: DVec3) -> Pose {
     Pose { rotation: DQuat::IDENTITY, position }
 }
@@ -272,7 +273,7 @@ fn going_train(finishes: &Finishes) -> [Placed; 5] {
     ]
 }
 
-/// The cannon sits tight on the arbor, and yet can be turned: with it go the hand, the motion work and the strike.
+/// The cannon sits tight on the arbor, and can still be turned: it carries the hand, the motion work and the strike.
 fn cannon(finishes: &Finishes) -> Piece {
     let cannon_parts = vec![
         flat("Cannon", spur_gear(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, finishes.wood),
@@ -365,7 +366,7 @@ fn frame(finishes: &Finishes, pivot: DVec3) -> Piece {
     piece("Frame", vec![back_plate, cock])
 }
 
-/// The model: all arbors are z axes.
+/// The model; all arbors are parallel to z.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

@@ -1,4 +1,4 @@
-//! What the parts of Eli Terry's clock share: its layers, the place of its dial, its wheels, and how parts are placed.
+//! Common parts of Eli Terry's clock: layers, position of the dial, wheels, and placement of parts.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, atan2, cos, sin};
 
@@ -7,31 +7,31 @@ use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::solid::Solid;
 use soffio_authoring::stock_parts::{MM, part, rod, spur_gear, y_to_z};
 
-/// Pitch diameter over number of teeth.
+/// Module: pitch diameter over number of teeth, m.
 pub const MODULE: f64 = 1.0 * MM;
-/// Of the drum, to the middle of the cord.
+/// Radius of the drum to the middle of the cord, m.
 pub const DRUM: f64 = 20.0 * MM;
 
-/// Layers: middles of wheels along z, m.
+/// Layers: centres of wheels along z, m.
 pub const BACK: f64 = -36.0 * MM;
 pub(crate) const MIDDLE: f64 = -26.0 * MM;
 pub(crate) const FRONT: f64 = -16.0 * MM;
 pub(crate) const MOTION: f64 = 4.0 * MM;
 pub(crate) const ESCAPING: f64 = 8.0 * MM;
-/// The pendulum swings in front of the dial and the hands.
+/// Layer of the pendulum, in front of the dial and the hands.
 pub const SWING: f64 = 30.0 * MM;
-/// Thickness of a wheel.
+/// Thickness of a wheel, m.
 pub(crate) const WHEEL: f64 = 4.0 * MM;
 
-/// Middle of the dial.
+/// Centre of the dial.
 pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
 
-/// Direction from one place to another, rad.
+/// Direction from one point to another, rad.
 pub fn toward(from: DVec3, to: DVec3) -> f64 {
     atan2(to.y - from.y, to.x - from.x)
 }
 
-/// A wheel of wood, crossed out.
+/// A wooden wheel with spokes.
 pub fn wheel(teeth: usize, phase: f64) -> Solid {
     let radius = 0.5 * MODULE * teeth as f64;
     let holes: Vec<Polygon> = (0..if teeth > 30 { 5 } else { 0 })
@@ -48,7 +48,7 @@ pub(crate) fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), 
     part(name, rod(radius, low, high), DVec3::ZERO, y_to_z(), density, finish)
 }
 
-/// A piece with its own node's mesh first.
+/// A piece whose first part is its own node's mesh.
 pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
     Piece { name, parts, wires: Vec::new(), markers: Vec::new() }
 }

@@ -1,18 +1,19 @@
-//! The striking part of Eli Terry's clock: what counts the hours.
+//! The striking train of Eli Terry's clock, which counts the hours.
 //!
 //! # Train
 //!
 //! ```text
-//! great wheel 52 → 8 pin wheel 64 (eight pins, one a blow) → 8 lock wheel 72 (a turn a blow) → 6 fly
-//! great wheel's pinion 20 → 30 count wheel: a turn for 78 blows, 1 + 2 + … + 12
+//! great wheel 52 → 8 pin wheel 64 (eight pins, one a strike) → 8 lock wheel 72 (a turn a strike) → 6 fly
+//! great wheel's pinion 20 → 30 count wheel: a turn for 78 strikes, 1 + 2 + … + 12
 //! ```
 //!
 //! # Counting
 //!
-//! The feeler of the count lever lies on the count wheel, whose rim is raised but for a notch after each hour's blows. In a
-//! notch the lever's arm stands in the way of the pin on the lock wheel; on the rim it is clear. A pin on the minute arbor
-//! lifts the flirt, drops it on the hour, and the flirt kicks the lever: the lock pin is past when the arm comes back, and a
-//! turn later, with the first blow struck, the arm holds it again, unless the rim has lifted the feeler by then.
+//! The follower of the count lever lies on the count wheel, whose rim is raised except for a notch after each hour's
+//! strikes. In a notch the lever's arm blocks the pin on the lock wheel; on the rim it is clear. A pin on the minute
+//! arbor lifts the flirt and drops it on the hour, and the flirt kicks the lever. The lock pin has passed when the arm
+//! returns. A turn later, after the first strike, the arm blocks it again, unless the rim has lifted the follower by
+//! then.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
@@ -24,28 +25,28 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, meshing_phase, part, rod, slab, spur_gear, y_to_z,
 };
 
-/// Teeth of the wheels and of the pinions that they drive.
+/// Teeth of the wheels and of their pinions.
 pub const GREAT: (usize, usize) = (52, 8);
 pub(crate) const PIN: (usize, usize) = (64, 8);
 pub(crate) const LOCK: (usize, usize) = (72, 6);
 pub(crate) const COUNT: (usize, usize) = (20, 30);
-/// Pins that lift the hammer.
+/// Number of pins that lift the hammer.
 pub const PINS: usize = 8;
-/// Blows of a turn of the count wheel.
+/// Strikes of a turn of the count wheel.
 pub const BLOWS: usize = 78;
-/// Module of lock wheel and fly.
+/// Module of lock wheel and fly, m.
 const FINE: f64 = 0.7 * MM;
 
-/// Raised rim of the count wheel, and how much higher it is than the notches.
+/// Radius of the raised rim of the count wheel, and its height above the notches, m.
 const RIM: f64 = 45.0 * MM;
 const RISE: f64 = 3.0 * MM;
-/// From a lock to where the rim begins to rise, and to where it has risen, blows; and from where it begins to fall and where
-/// it is down to the next lock: the feeler has to be down before the pin comes.
+/// Positions of the rim after a lock, in strikes: where it begins to rise and has risen, and before the next lock where
+/// it begins to fall and has fallen. The follower must be down before the pin comes.
 const FOOT: f64 = 0.22;
 const TOP: f64 = 0.62;
 const EDGE: f64 = 0.75;
 const DOWN: f64 = 0.35;
-/// Radius of feeler, pins and arms.
+/// Radius of follower, pins and arms, m.
 const PEG: f64 = 0.8 * MM;
 const FEELER: f64 = 1.0 * MM;
 
@@ -56,19 +57,19 @@ const FLIRT_LAYER: f64 = -9.0 * MM;
 const COUNT_LAYER: f64 = 4.0 * MM;
 const BELL_LAYER: f64 = -60.0 * MM;
 
-/// Radii of the circles of pins: hammer's, lock's, and the minute arbor's.
+/// Radii of the pin circles: the hammer's, the lock's, and the minute arbor's, m.
 const HAMMER_PINS: f64 = 12.0 * MM;
 const LOCK_PIN: f64 = 18.0 * MM;
 pub(crate) const LIFTING_PIN: f64 = 10.0 * MM;
-/// Where the lock pin lies on the lever's arm, rad, and how far the arm draws it.
+/// Position of the lock pin on the lever's arm, rad, and its draw.
 const LOCKED: f64 = 12.0 * PI / 180.0;
 const DRAW: f64 = 0.05;
-/// Lengths of the hammer's tail and of the flirt's left arm.
+/// Lengths of the hammer's tail and of the flirt's left arm, m.
 const TAIL: f64 = 27.4 * MM;
 const REACH: f64 = 50.4 * MM;
-/// Arms are met beside their ends, so much further on the pins' way, rad: pins do not run against them.
+/// Pins meet the arms beside their ends, by this angle further on, rad, so that they do not jam.
 const INSIDE: f64 = 0.16;
-/// Before the hammer's tail is met the next pin has this far to go when the train is locked, rad.
+/// Angle of the next pin before the hammer's tail when the train is locked, rad.
 const RUN_UP: f64 = 5.0 * PI / 180.0;
 
 fn mm(x: f64, y: f64) -> DVec3 {
@@ -76,7 +77,7 @@ fn mm(x: f64, y: f64) -> DVec3 {
 }
 
 /// Arbors: great wheel, pin wheel, lock wheel, fly, count wheel; hammer, lever, flirt.
-struct Places {
+struct ArborPositions {
     great: DVec3,
     pin: DVec3,
     lock: DVec3,
@@ -87,7 +88,7 @@ struct Places {
     flirt: DVec3,
 }
 
-fn places() -> Places {
+fn places() -> ArborPositions {
     let apart = |(wheel, pinion): (usize, usize), module: f64| 0.5 * module * (wheel + pinion) as f64;
     let away = |x: f64, y: f64| DVec3::new(x, y, 0.0).normalize();
     let great = mm(40.0, -32.0);
@@ -95,7 +96,7 @@ fn places() -> Places {
     let lock = pin + apart(PIN, MM) * away(0.3, 0.954);
     let fly = lock + apart(LOCK, FINE) * away(0.1, 0.995);
     let count = great + apart(COUNT, MM) * away(0.6, -0.8);
-    Places {
+    ArborPositions {
         great,
         pin,
         lock,
@@ -107,8 +108,8 @@ fn places() -> Places {
     }
 }
 
-/// Direction of the pivot of an arm of this length from the centre of a circle of pins, and half the angle that a pin goes
-/// with the arm, from where their round ends meet to where they part: rad.
+/// Direction of the pivot of an arm of this length from the centre of a pin circle, and half the angle in which a pin
+/// moves the arm, between the contacts of their round ends: rad.
 fn meeting(center: DVec3, circle: f64, pivot: DVec3, arm: f64) -> (f64, f64) {
     let apart = center.distance(pivot);
     let arm = arm + 2.0 * PEG;
@@ -116,7 +117,7 @@ fn meeting(center: DVec3, circle: f64, pivot: DVec3, arm: f64) -> (f64, f64) {
     (toward(center, pivot), soffio_math::acos(cosine))
 }
 
-/// Where the lifting pin is when the flirt drops, rad.
+/// Direction of the lifting pin when the flirt drops, rad.
 pub fn lifting_pin_at_the_hour() -> f64 {
     let (toward, half) = meeting(CENTER, LIFTING_PIN, places().flirt, REACH);
     toward - half
@@ -140,11 +141,11 @@ fn polar(radius: f64, angle: f64) -> DVec3 {
     radius * DVec3::new(cos(angle), sin(angle), 0.0)
 }
 
-/// The raised rim of one hour, after so many blows of those before; the count wheel stands at `now` blows.
+/// The raised rim of one hour after the strikes of the earlier hours; the count wheel is at `now` strikes.
 fn rise(hour: usize, now: f64) -> Solid {
     let before = (hour * (hour - 1) / 2) as f64;
     let bottom = RIM - RISE - 1.0 * MM;
-    // Later blows come from the right.
+    // Later strikes come from the right.
     let at = |blow: f64, radius: f64| {
         let angle = 0.5 * PI - 2.0 * PI * (blow - now) / BLOWS as f64;
         DVec2::new(radius * cos(angle), radius * sin(angle))
@@ -163,7 +164,7 @@ fn rise(hour: usize, now: f64) -> Solid {
 const RISES: [&str; 11] =
     ["Hour02", "Hour03", "Hour04", "Hour05", "Hour06", "Hour07", "Hour08", "Hour09", "Hour10", "Hour11", "Hour12"];
 
-/// The moving pieces; the train last struck `hour`.
+/// The moving pieces; the train has struck `hour` last.
 pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
     let p = &places();
     let weight =
@@ -183,7 +184,7 @@ pub fn pieces(finishes: &Finishes, hour: usize) -> Vec<(Piece, Pose)> {
     pieces.map(|(piece, place)| (piece, at(place))).into()
 }
 
-/// The great wheel with the drum, and the pinion that drives the count wheel.
+/// The great wheel with the drum, and the pinion of the count wheel.
 fn great_wheel(finishes: &Finishes) -> Piece {
     let wood = finishes.wood;
     piece(
@@ -197,14 +198,14 @@ fn great_wheel(finishes: &Finishes) -> Piece {
     )
 }
 
-/// Where on the pin wheel's circle a pin meets the hammer's tail, rad.
-fn hammer_met(p: &Places) -> f64 {
+/// Where on the pin circle a pin meets the hammer's tail, rad.
+fn hammer_met(p: &ArborPositions) -> f64 {
     let (toward_hammer, half) = meeting(p.pin, HAMMER_PINS, p.hammer, TAIL);
     toward_hammer - half + INSIDE
 }
 
 /// The pin wheel, whose pins lift the hammer.
-fn pin_wheel(p: &Places, finishes: &Finishes) -> Piece {
+fn pin_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let (wood, steel) = (finishes.wood, finishes.steel);
     let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(p.great, p.pin));
     let mut parts = vec![
@@ -222,7 +223,7 @@ fn pin_wheel(p: &Places, finishes: &Finishes) -> Piece {
 }
 
 /// The lock wheel with its pin.
-fn lock_wheel(p: &Places, finishes: &Finishes) -> Piece {
+fn lock_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let (wood, steel) = (finishes.wood, finishes.steel);
     let phase = meshing_phase(PIN.1, PIN.0, 0.0, toward(p.pin, p.lock));
     let holes: Vec<Polygon> = (0..5)
@@ -243,7 +244,7 @@ fn lock_wheel(p: &Places, finishes: &Finishes) -> Piece {
 }
 
 /// The fly: two vanes that the air brakes.
-fn fly(p: &Places, finishes: &Finishes) -> Piece {
+fn fly(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let (wood, steel) = (finishes.wood, finishes.steel);
     let phase = meshing_phase(LOCK.1, LOCK.0, 0.0, toward(p.lock, p.fly));
     let vane = |name, side: f64| {
@@ -269,8 +270,8 @@ fn fly(p: &Places, finishes: &Finishes) -> Piece {
     )
 }
 
-/// The count wheel with the hours' raised rims, turned to where `hour` has been struck.
-fn count_wheel(p: &Places, finishes: &Finishes, hour: usize) -> Piece {
+/// The count wheel with the hours' raised rims, after `hour` has been struck.
+fn count_wheel(p: &ArborPositions, finishes: &Finishes, hour: usize) -> Piece {
     let wood = finishes.wood;
     let phase = meshing_phase(COUNT.1, COUNT.0, 0.0, toward(p.great, p.count));
     let disc =
@@ -286,8 +287,8 @@ fn count_wheel(p: &Places, finishes: &Finishes, hour: usize) -> Piece {
     piece("CountWheel", parts)
 }
 
-/// The hammer; the next pin is just short of its tail.
-fn hammer(p: &Places, finishes: &Finishes) -> Piece {
+/// The hammer; the next pin is just before its tail.
+fn hammer(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let steel = finishes.steel;
     let tail = met_arm(p.pin, hammer_met(p), HAMMER_PINS, p.hammer, -1.0);
     piece(
@@ -308,19 +309,19 @@ fn hammer(p: &Places, finishes: &Finishes) -> Piece {
     )
 }
 
-/// The count lever, its feeler in a notch and its arm under the lock pin.
-fn count_lever(p: &Places, finishes: &Finishes) -> Piece {
+/// The count lever, its follower in a notch and its arm under the lock pin.
+fn count_lever(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let steel = finishes.steel;
     // In the notch; the arm under the lock pin.
-    let feeler = p.count + DVec3::Y * (RIM + FEELER - RISE) - p.lever;
+    let follower = p.count + DVec3::Y * (RIM + FEELER - RISE) - p.lever;
     let lock_pin = p.lock + polar(LOCK_PIN, LOCKED) - p.lever;
     let stop = lock_pin + 2.0 * PEG * DVec3::new(-DRAW, -1.0, 0.0).normalize();
     piece(
         "CountLever",
         vec![
             along_z("LeverArbor", 1.5 * MM, (-24.0 * MM, 8.0 * MM), STEEL, steel),
-            arm("FeelerArm", DVec3::ZERO, feeler, COUNT_LAYER, steel),
-            part("Feeler", rod(FEELER, -1.5 * MM, 1.5 * MM), feeler.with_z(COUNT_LAYER), y_to_z(), STEEL, steel),
+            arm("FeelerArm", DVec3::ZERO, follower, COUNT_LAYER, steel),
+            part("Feeler", rod(FEELER, -1.5 * MM, 1.5 * MM), follower.with_z(COUNT_LAYER), y_to_z(), STEEL, steel),
             arm("StopArm", DVec3::ZERO, stop, LEVER_LAYER - 4.0 * MM, steel),
             peg("Stop", stop, (-22.0 * MM, -13.0 * MM), steel),
             arm("KickArm", DVec3::ZERO, DVec3::X * 14.0 * MM, FLIRT_LAYER + 4.0 * MM, steel),
@@ -330,7 +331,7 @@ fn count_lever(p: &Places, finishes: &Finishes) -> Piece {
 }
 
 /// The flirt, just above the lever's arm.
-fn flirt(p: &Places, finishes: &Finishes) -> Piece {
+fn flirt(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let steel = finishes.steel;
     let (toward_flirt, half) = meeting(CENTER, LIFTING_PIN, p.flirt, REACH);
     let left = met_arm(CENTER, toward_flirt + half - INSIDE, LIFTING_PIN, p.flirt, 1.0);
@@ -348,18 +349,18 @@ fn flirt(p: &Places, finishes: &Finishes) -> Piece {
     )
 }
 
-/// Where the weight of the strike hangs, wound up.
+/// Position of the weight of the striking train, wound up.
 pub fn weight_at() -> DVec3 {
     DVec3::new(0.125, 0.36, -10.0 * MM)
 }
 
-/// Direction of an arm that a pin at `angle` of its circle just touches, on the side that the sign says.
+/// Direction of an arm that just touches a pin at `angle` of its circle, on the side of the sign.
 fn met_arm(center: DVec3, angle: f64, circle: f64, pivot: DVec3, side: f64) -> f64 {
     let pin = center + polar(circle, angle);
     toward(pivot, pin) + side * soffio_math::asin(2.0 * PEG / pivot.distance(pin))
 }
 
-/// The bell, which stands still.
+/// The bell, which is fixed.
 pub fn bell(finishes: &Finishes) -> Part {
     let outside = [(40.0, 0.0), (39.5, 8.0), (36.0, 16.0), (28.0, 23.0), (16.0, 27.5), (0.0, 29.0)];
     let inside = [(0.0, 27.0), (15.0, 25.5), (26.5, 21.3), (34.0, 15.0), (37.5, 7.5), (38.0, 0.0)];

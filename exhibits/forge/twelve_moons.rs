@@ -1,8 +1,8 @@
-//! Twelve moons on eleven boughs: a chain in which each bough carries one moon and all that follows.
+//! Twelve moons on eleven branches: a chain in which each branch carries one moon and the next branch.
 //!
-//! The moons go from full, the large one on the left, to new, the least on the right: what the shadow has taken is cut
-//! out. Masses and wires are those of the design sheet; each bough's loads hang 12 mm below its loop. The sheet's boughs are
-//! straight: these are up to 3 % shorter from end to end, so that with curves and eyes their inertias are the sheet's.
+//! The moons go from full, the large one on the left, to new, the smallest on the right; the part in shadow is cut out.
+//! Masses and wires are those of the design; each branch's loads hang 12 mm below its loop. The branches of the design
+//! are straight. These are up to 3 % shorter from end to end, so that with curves and eyes their inertias agree.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
@@ -14,17 +14,18 @@ use soffio_authoring::piece::{Piece, named};
 use soffio_authoring::stock_parts::{ALUMINIUM, MM, ceiling};
 use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
-/// Sheet of all moons.
+/// Thickness of all moons, m.
 const SHEET: f64 = 1.0 * MM;
-/// Where all hangs.
+/// Position of the mobile's hook.
 const HOOK: DVec3 = DVec3::new(-0.21, 0.66, 0.0);
-/// Of the centre of what a bough carries below its loop.
+/// Depth of the centre of a branch's loads below its loop, m.
 const DEPTH: f64 = 12.0 * MM;
-/// Corners of a moon.
+/// Segments of a moon's outline.
 const ROUND: usize = 72;
 
-/// A bough, the uppermost first: its moon's diameter (mm, of the full disc) and mass (g), diameter (mm) of the wire and its length from end to
-/// end (mm), how far the moon's end rises (mm), where the bough and the moon point (rad), length of the moon's stem (mm).
+/// A branch, the uppermost first. Its moon's diameter (mm, of the full disc) and mass (g); diameter (mm) of the wire;
+/// its length from end to end and rise of the moon's end (mm); directions of the branch and the moon (rad); length of
+/// the moon's stem (mm).
 #[rustfmt::skip] // rows of a drawing
 const BOUGHS: [[f64; 8]; 11] = [
     [220.0, 102.6,   2.4, 692.1,  46.0,  0.10,  0.16,  34.0],
@@ -39,16 +40,16 @@ const BOUGHS: [[f64; 8]; 11] = [
     [ 80.0,  13.6,   1.2, 215.9,  10.0, -0.08, -0.15,  24.0],
     [ 75.0,  11.9,   1.2, 197.5,  -9.0,  0.30,  0.20,  24.0],
 ];
-/// The last moon, at the lowest bough's right end: diameter, mass, where it points, stem.
+/// The last moon, at the lowest branch's right end: diameter, mass, direction, stem.
 const LAST: [f64; 4] = [70.0, 10.4, -0.10, 30.0];
-/// Which moon is the red one of an eclipse.
+/// Index of the red moon, as in an eclipse.
 const ECLIPSED: usize = 5;
-/// The shadow's radius over the moon's; what is left is the rim that holds it together.
+/// The shadow's radius over the moon's; the remaining rim holds the moon together.
 const SHADOW: f64 = 0.66;
-/// How the line between the horns leans, rad.
+/// Tilt of the line between the horns, rad.
 const LEAN: f64 = 0.42;
 
-/// What the shadow has taken of the moon of radius `radius`, `share` 0 … 1: between the limb and half an ellipse.
+/// The part in shadow of a moon of radius `radius`, `share` 0 … 1: between the limb and half an ellipse.
 fn shadow(radius: f64, share: f64) -> Option<Polygon> {
     if share <= 0.0 {
         return None;
@@ -73,7 +74,7 @@ fn moon(k: usize, [diameter, mass, stem]: [f64; 3], finish: usize) -> Piece {
     cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, 1e-3 * mass, finish))
 }
 
-/// Draws, balances and writes the model.
+/// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });

@@ -1,4 +1,4 @@
-//! Two shafts with a bend between them: a rotor in the breath drives a dial round the corner through crossed axes.
+//! Two shafts at an angle: a rotor in the breath drives a dial through a universal joint.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 
@@ -10,11 +10,11 @@ use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, par
 /// Height of both shafts, and the angle between them, rad.
 const SHAFT: f64 = 200.0 * MM;
 pub(crate) const BEND: f64 = 0.61;
-/// From the crossing to the rotor, and to the dial.
+/// Distances from the joint to the rotor and to the dial, m.
 const ROTOR: f64 = 90.0 * MM;
 const DIAL: f64 = 140.0 * MM;
 
-/// The model: the rotor's shaft is its z axis, the dial's shaft its own z axis, turned by the bend.
+/// The model: each shaft is the z axis of its node, the dial's rotated by the angle.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);

@@ -1,8 +1,8 @@
-//! Wind chimes: tubes in a circle about a wooden disc that a sail drives, of aluminium, bamboo or glass.
+//! Wind chimes of aluminium, bamboo or glass: tubes in a circle around a wooden disc that a sail moves.
 //!
-//! A tube hangs by a pin at 22.42 % of its length, the node of its first bending mode, which the cord therefore spares.
-//! All are struck at the same height, 40 % of the length from the lower end, where the first five modes sound: hung so,
-//! their tops and feet are a stair. The cords hang from a round crown.
+//! A tube hangs by a pin at 22.42 % of its length, a node of its first bending mode, so that the cord does not damp it.
+//! All tubes are struck at the same height, 40 % of their length from the lower end, which excites the first five
+//! modes. So their tops and feet are staggered. The cords hang from a round crown.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
@@ -13,26 +13,26 @@ use super::piece::{BentWire, Piece, load, named};
 use super::solid::{Solid, extrude, revolve, revolve_ring};
 use super::stock_parts::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
 
-/// Where the crown hangs.
+/// Height of the crown's hook, m.
 const HOOK: f64 = 1.26;
-/// Of the crown's underside below its ring, m.
+/// Height of the crown's ring above its underside, m.
 const BRIDLE: f64 = 105.0 * MM;
-/// Where tubes are hung and struck, as shares of their length from the upper end.
+/// Points where tubes hang and are struck, as fractions of their length from the upper end.
 const PIN: f64 = 0.2242;
 const STRUCK: f64 = 0.6;
-/// The least gap between the crown and a tube.
+/// Least gap between the crown and a tube, m.
 const HEADROOM: f64 = 34.0 * MM;
-/// The striker: its radius and mass, and how far its rim is from the tubes.
+/// Radius (m) and mass (kg) of the striker, and gap between its rim and the tubes (m).
 const STRIKER: f64 = 40.0 * MM;
 const STRIKER_MASS: f64 = 60e-3;
 const GAP: f64 = 13.5 * MM;
-/// From the striker to the middle of the sail; the sail's mass.
+/// Distance from the striker to the middle of the sail, m, and mass of the sail, kg.
 const SAIL_LINE: f64 = 0.5;
 const SAIL_MASS: f64 = 10e-3;
-/// Of the sail's wood, kg/m³.
+/// Density of the sail's wood, kg/m³.
 const LIME_WOOD: f64 = 530.0;
 
-/// What a chime is made of.
+/// Design of a wind chime.
 pub struct ChimeDesign<'a> {
     /// Title of the scene.
     pub title: &'a str,
@@ -40,13 +40,13 @@ pub struct ChimeDesign<'a> {
     pub lengths: &'a [f64],
     /// Outer diameter and wall, mm.
     pub tube: [f64; 2],
-    /// kg/m³.
+    /// Density of the tubes, kg/m³.
     pub density: f64,
-    /// How the tubes look.
+    /// Finish of the tubes.
     pub tubes: Finish,
-    /// What the tubes are if they are clear.
+    /// Optical properties of the tubes if they are of glass.
     pub glass: Option<Glass>,
-    /// How the sail looks.
+    /// Finish of the sail.
     pub sail: Finish,
 }
 
@@ -90,7 +90,7 @@ struct FinishIndices {
     iron: usize,
 }
 
-/// From the crown's underside down to the height at which all tubes are struck.
+/// Distance from the crown's underside down to the strike height, m.
 fn drop(design: &ChimeDesign) -> f64 {
     STRUCK * design.lengths[0] * MM + HEADROOM
 }
@@ -122,13 +122,13 @@ fn cord(k: usize, length: f64, finishes: &FinishIndices) -> Piece {
     }
 }
 
-/// Braided cord, drawn straight down from the origin: 0.7 mm in radius, as heavy as nylon.
+/// Braided cord straight down from the origin: 0.7 mm in radius, with the density of nylon.
 fn line(name: &'static str, length: f64) -> BentWire {
     BentWire { name, points: vec![DVec3::ZERO, -length * DVec3::Y], radius: 0.7 * MM, density: 1150.0 }
 }
 
-/// The crown: a turned board on a bridle of three cords; its origin is the ring they meet in. Long tubes are heavier: the
-/// board hangs `aside` of the ring, so that it is level.
+/// The crown: a turned board on a bridle of three cords; its origin is the ring in which they meet. Long tubes are
+/// heavier, so the board is offset by `aside` from the ring to hang level.
 fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndices) -> Piece {
     let rim = (circle + 0.5 * design.tube[0] * MM + 10.0 * MM) / MM;
     let top = 16.0;
@@ -159,7 +159,7 @@ fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndic
     }
 }
 
-/// Where the tubes hang, from the middle: evenly about a circle, none right before another.
+/// Positions of the tubes about the centre: evenly on a circle, none exactly in front of another.
 fn places(count: usize, circle: f64) -> Vec<DVec3> {
     let place = |k: usize| {
         let angle = 2.0 * PI * (k as f64 / count as f64) + 1.05 * PI;
@@ -168,7 +168,7 @@ fn places(count: usize, circle: f64) -> Vec<DVec3> {
     (0..count).map(place).collect()
 }
 
-/// The striker on its line; the line goes on to the sail.
+/// The striker on its line, which continues to the sail.
 fn striker(drop: f64, finishes: &FinishIndices) -> Piece {
     let height = STRIKER_MASS / (WOOD * PI * STRIKER * STRIKER);
     let (h, edge) = (0.5 * height, 1.5 * MM);
@@ -183,11 +183,11 @@ fn striker(drop: f64, finishes: &FinishIndices) -> Piece {
     }
 }
 
-/// The sail on its line: two crossed leaves of 60 mm by 100 mm, their corners rounded. However the line twists, one of them
-/// faces the wind.
+/// The sail on its line: two crossed leaves of 60 mm by 100 mm with rounded corners. However the line twists, one of
+/// them faces the wind.
 fn sail(finishes: &FinishIndices) -> Piece {
     let (x, y) = (30.0, 50.0);
-    // |x/a|⁴ + |y/b|⁴ = 1: a card with soft corners.
+    // |x/a|⁴ + |y/b|⁴ = 1: a superellipse.
     let soft = |share: f64| share.abs().sqrt().copysign(share);
     let corner = |k: usize| {
         let angle = 2.0 * PI * (k as f64 / ROUND as f64 - 0.25);
@@ -198,7 +198,7 @@ fn sail(finishes: &FinishIndices) -> Piece {
     let mass = 0.5 * SAIL_MASS;
     let thickness = mass / (LIME_WOOD * area);
     let solid = to_mass(outline, Vec::new(), thickness, (LIME_WOOD, mass));
-    // The other leaf is let in: half of it on either side.
+    // The other leaf consists of two halves, one on either side.
     let half: Polygon = (0..=ROUND / 2).map(|k| corner(k) * MM).map(|p| p.with_x(p.x.max(0.5 * thickness))).collect();
     let half = extrude(&half, &[], thickness, BEVEL);
     let middle = -SAIL_LINE * DVec3::Y;
@@ -217,7 +217,7 @@ fn sail(finishes: &FinishIndices) -> Piece {
     }
 }
 
-/// Draws and writes a chime.
+/// The GLB file of a chime.
 pub fn glb(design: &ChimeDesign) -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = FinishIndices {
@@ -250,7 +250,7 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
         })
         .collect();
     let (striker, sail) = (striker(drop, &finishes), sail(&finishes));
-    // The bridle's cords stay where they meet, so the board's way aside is not quite that of the whole: three rounds.
+    // The bridle's cords stay where they meet, so the offset of the board is found in three iterations.
     let places = places(design.lengths.len(), circle);
     let aside = (0..3).fold(DVec3::ZERO, |aside, _| {
         let mut whole = crown(design, circle, aside, &finishes).mass();

@@ -1,8 +1,8 @@
-//! Outlines of plates from an SVG drawing: each filled shape is one plate.
+//! Plate outlines from an SVG drawing: each filled shape is one plate.
 //!
-//! A drawing with a physical size (`width="200mm"` and a `viewBox`) has its millimetres; with a size in pixels there are
-//! 96 to the inch, as the standard says; without a size a unit is a millimetre. Curves become polygons within 0.05 mm.
-//! What is no plate (holes, open lines, text, pictures) is refused where it stands, all of it at once.
+//! A drawing with a physical size (`width="200mm"` and a `viewBox`) is in millimetres. With a size in pixels there are
+//! 96 to the inch, as the standard says. Without a size a unit is a millimetre. Curves become polygons within 0.05 mm.
+//! Other content (holes, open lines, text, pictures) is refused with its location, all at once.
 
 use std::sync::Arc;
 
@@ -16,15 +16,15 @@ use soffio_exhibit::codes;
 use soffio_exhibit::diagnostic::{Diagnostic, Location, Report};
 use soffio_math::DVec2;
 
-/// How far a polygon may be from its curve, mm; corners nearer to each other are one.
+/// Largest distance of a polygon from its curve, mm; nearer corners are merged.
 const FLATNESS: f64 = 0.05;
 /// Most corners of a plate.
 const MAX_CORNERS: usize = 2000;
-/// mm of an inch, and of a CSS pixel.
+/// Length of an inch and of a CSS pixel, mm.
 const INCH: f64 = 25.4;
 const PIXEL: f64 = INCH / 96.0;
 
-/// Elements that hold others, and those that say nothing about plates.
+/// Container elements, and elements without a shape.
 const GROUPS: [&str; 4] = ["svg", "g", "a", "switch"];
 const IGNORED: [&str; 11] = [
     "defs",
@@ -40,7 +40,10 @@ const IGNORED: [&str; 11] = [
     "radialGradient",
 ];
 
-/// The plates of a drawing, in its order; or all that is wrong with it. `file` is its name in messages.
+/// The plates of a drawing, in its order; `file` is its name in messages.
+///
+/// # Errors
+/// All problems of the drawing, each with its line.
 pub fn outlines(file: &str, text: &str) -> Result<Vec<Outline>, Report> {
     let mut reader = Reader { file, text, plates: Vec::new(), problems: Vec::new() };
     match Document::parse(text) {
@@ -60,7 +63,7 @@ pub fn outlines(file: &str, text: &str) -> Result<Vec<Outline>, Report> {
     }
 }
 
-/// Byte of a line and column (in characters), both from 1.
+/// Byte offset of a line and column (in characters), both from 1.
 fn offset(text: &str, row: usize, column: usize) -> usize {
     let start: usize = text.split_inclusive('\n').take(row.saturating_sub(1)).map(str::len).sum();
     let line = text.get(start..).unwrap_or_default();
@@ -85,7 +88,7 @@ impl Reader<'_> {
         self.problems.push(problem);
     }
 
-    /// Reports what is wrong with an element, at its opening tag.
+    /// Reports a problem of an element, at its opening tag.
     fn refuse(&mut self, node: Node, what: &str, help: &str) {
         let all = node.range();
         let head = self.text[all.clone()].find(['>', '\n']).map_or(all.end, |i| all.start + i + 1);
@@ -105,7 +108,7 @@ impl Reader<'_> {
             (Some(_), None) => PIXEL,
             _ => 1.0,
         };
-        // y upwards, as everywhere here.
+        // y upwards.
         self.walk(root, Affine::scale_non_uniform(scale, -scale));
     }
 
@@ -136,13 +139,13 @@ impl Reader<'_> {
         }
     }
 
-    /// One element as one plate.
+    /// Converts one element to one plate.
     fn plate(&mut self, node: Node, path: BezPath) {
         let loops = path.elements().iter().filter(|e| matches!(e, PathEl::MoveTo(_))).count();
         if loops > 1 {
             let what =
                 format!("has {loops} outlines: holes, or several plates; a plate is one closed outline without holes");
-            let help = "take the holes out, or break the path apart into plates (Inkscape: Path, Break Apart)";
+            let help = "remove the holes, or break the path apart into plates (Inkscape: Path, Break Apart)";
             return self.refuse(node, &what, help);
         }
         let mut points: Vec<DVec2> = Vec::new();
@@ -153,12 +156,12 @@ impl Reader<'_> {
             PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
         });
         if points.iter().any(|p| !p.is_finite()) {
-            return self.refuse(node, "has points that are no numbers", "draw it again");
+            return self.refuse(node, "has coordinates that are not numbers", "draw it again");
         }
         let near = |a: DVec2, b: DVec2| a.distance(b) < FLATNESS;
         let meets = points.len() > 2 && near(points[0], points[points.len() - 1]);
         if !closed && !meets {
-            return self.refuse(node, "is an open line", "close it: a plate is cut all the way round");
+            return self.refuse(node, "is an open line", "close it: a plate needs a closed outline");
         }
         points.dedup_by(|b, a| near(*a, *b));
         while points.len() > 1 && near(points[0], points[points.len() - 1]) {
@@ -170,7 +173,7 @@ impl Reader<'_> {
         }
         if let Some([a, b]) = crossing(&points) {
             let what = format!("crosses itself near ({:.1}, {:.1}) mm", 0.5 * (a.x + b.x), -0.5 * (a.y + b.y));
-            return self.refuse(node, &what, "untie the loop, or draw two plates");
+            return self.refuse(node, &what, "remove the loop, or draw two plates");
         }
         let area = if points.len() < 3 { 0.0 } else { area_and_centroid(&points).0 };
         if area.abs() < 1.0 {
@@ -183,13 +186,13 @@ impl Reader<'_> {
     }
 }
 
-/// How an element is called in messages: `<path id="fin">`.
+/// Name of an element in messages: `<path id="fin">`.
 fn element_name(node: Node) -> String {
     let name = node.tag_name().name();
     node.attribute("id").map_or_else(|| format!("<{name}>"), |id| format!("<{name} id=\"{id}\">"))
 }
 
-/// mm of a unit; `None` for shares of what nobody knows.
+/// Length of a unit, mm; `None` for relative units.
 fn millimetres(unit: LengthUnit) -> Option<f64> {
     Some(match unit {
         LengthUnit::Mm => 1.0,
@@ -202,17 +205,17 @@ fn millimetres(unit: LengthUnit) -> Option<f64> {
     })
 }
 
-/// The outline of an element in its own units; or why it has none, and what to do.
+/// The outline of an element in its own units; else why it has none, and what to do.
 fn shape(node: Node) -> Result<BezPath, (String, &'static str)> {
     let number = |key: &str| -> Result<f64, (String, &'static str)> {
         let Some(text) = node.attribute(key) else { return Ok(0.0) };
         let length = text.parse::<Length>().ok();
         let value = length.and_then(|l| match l.unit {
             LengthUnit::None => Some(l.number),
-            // Absolute units are pixels' multiples inside a drawing.
+            // Absolute units are multiples of pixels inside a drawing.
             unit => millimetres(unit).map(|mm| l.number * mm / PIXEL),
         });
-        value.ok_or_else(|| (format!("has {key} = \"{text}\", which is no length"), "save it as plain SVG"))
+        value.ok_or_else(|| (format!("has {key} = \"{text}\", which is not a length"), "save it as plain SVG"))
     };
     const TOLERANCE: f64 = 0.01;
     match node.tag_name().name() {
@@ -242,13 +245,13 @@ fn shape(node: Node) -> Result<BezPath, (String, &'static str)> {
             }
             Ok(path)
         }
-        "line" => Err(("is a line, and no plate".into(), "draw a closed outline")),
-        "text" => Err(("is text".into(), "make it a path (Inkscape: Path, Object to Path), or take it out")),
-        "image" => Err(("is a picture".into(), "trace it (Inkscape: Path, Trace Bitmap), or take it out")),
+        "line" => Err(("is a line, not a plate".into(), "draw a closed outline")),
+        "text" => Err(("is text".into(), "make it a path (Inkscape: Path, Object to Path), or remove it")),
+        "image" => Err(("is a picture".into(), "trace it (Inkscape: Path, Trace Bitmap), or remove it")),
         "use" => {
-            Err(("is a copy of another element".into(), "unlink it (Inkscape: Edit, Clone, Unlink), or take it out"))
+            Err(("is a copy of another element".into(), "unlink it (Inkscape: Edit, Clone, Unlink), or remove it"))
         }
-        _ => Err(("is no outline".into(), "draw plates as paths, rectangles, circles, ellipses or polygons")),
+        _ => Err(("is not an outline".into(), "draw plates as paths, rectangles, circles, ellipses or polygons")),
     }
 }
 

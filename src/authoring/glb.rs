@@ -1,8 +1,8 @@
-//! A binary glTF 2.0 file written from plain parts.
+//! Writer of binary glTF 2.0 files from meshes, finishes and cameras.
 //!
-//! Writing is deterministic: JSON keys are sorted, lengths are rounded to 0.1 µm, positions and normals are stored
-//! as 32-bit floats, so the same scene gives the same bytes on any machine. Layout as in the glTF 2.0
-//! specification, section 4.4: a 12-byte header, the JSON chunk padded with spaces, the binary chunk with zeros.
+//! The output is deterministic: JSON keys are sorted, lengths rounded to 0.1 µm, positions and normals stored as 32-bit
+//! floats. Layout as in the glTF 2.0 specification, section 4.4: a 12-byte header, the JSON chunk padded with spaces,
+//! the binary chunk with zeros.
 
 use serde_json::{Value, json};
 
@@ -15,35 +15,35 @@ const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
-/// How a surface looks (glTF metallic–roughness).
+/// Surface finish (glTF metallic–roughness).
 #[derive(Clone, Copy, Debug)]
 pub struct Finish {
     /// Name in the file.
     pub name: &'static str,
-    /// Linear RGB.
+    /// Base colour, linear RGB.
     pub color: [f64; 3],
-    /// 0 paint … 1 bare metal.
+    /// Metalness: 0 paint … 1 bare metal.
     pub metallic: f64,
-    /// Perceptual, 0…1.
+    /// Perceptual roughness, 0…1.
     pub roughness: f64,
 }
 
-/// What light meets in glass.
+/// Optical properties of glass.
 #[derive(Clone, Copy, Debug)]
 pub struct Glass {
     /// Thickness of the wall, m.
     pub wall: f64,
     /// Index of refraction.
     pub ior: f64,
-    /// Part of the light that is not scattered, 0…1.
+    /// Transmitted fraction of the light, 0…1.
     pub through: f64,
-    /// Linear RGB that white has become after `way` metres of it.
+    /// Attenuation colour: what white light becomes after the distance `way`, linear RGB.
     pub color: [f64; 3],
-    /// m.
+    /// Attenuation distance, m.
     pub way: f64,
 }
 
-/// A scene under construction.
+/// A glTF scene under construction.
 #[derive(Debug, Default)]
 pub struct Scene {
     nodes: Vec<Value>,
@@ -58,7 +58,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Adds an empty node; its index. `translation` in metres, in the frame of `parent`.
+    /// Adds an empty node and returns its index; `translation` in m, in the frame of `parent`.
     pub fn node(&mut self, name: &str, parent: Option<usize>, translation: DVec3, rotation: DQuat) -> usize {
         let index = self.nodes.len();
         let mut node = json!({ "name": name });
@@ -77,12 +77,12 @@ impl Scene {
         index
     }
 
-    /// Adds a mark: an empty node that names a point of its parent's frame.
+    /// Adds a marker: an empty node that names a point of its parent's frame.
     pub fn marker(&mut self, name: &str, parent: Option<usize>, point: DVec3) {
         self.node(name, parent, point, DQuat::IDENTITY);
     }
 
-    /// Adds a finish; its index.
+    /// Adds a finish and returns its index.
     pub fn finish(&mut self, finish: &Finish) -> usize {
         let [r, g, b] = finish.color;
         self.materials.push(json!({
@@ -96,7 +96,7 @@ impl Scene {
         self.materials.len() - 1
     }
 
-    /// Makes a finish transparent, as the wall of a body of glass.
+    /// Makes a finish transparent, as the wall of a glass body.
     pub fn clear(&mut self, finish: usize, glass: &Glass) {
         let Glass { wall, ior, through, color, way } = glass;
         self.materials[finish]["extensions"] = json!({
@@ -106,7 +106,7 @@ impl Scene {
         });
     }
 
-    /// Gives `node` the shape of `solid` in `finish`.
+    /// Gives `node` the mesh of `solid` with a finish.
     pub fn mesh(&mut self, node: usize, solid: &Solid, finish: usize) {
         let single = |v: &DVec3| v.as_vec3().to_array();
         let positions: Vec<[f32; 3]> = solid.positions.iter().map(single).collect();
@@ -134,7 +134,7 @@ impl Scene {
         }));
     }
 
-    /// Adds a perspective camera that looks from `eye` at `target`, y upwards; `fovy` rad, made for `aspect`.
+    /// Adds a perspective camera at `eye` that looks at `target`, y upwards; `fovy` in rad, made for `aspect`.
     pub fn camera(&mut self, name: &str, eye: DVec3, target: DVec3, fovy: f64, aspect: f64) {
         // A glTF camera looks along −Z of its node with +Y up.
         let back = (eye - target).normalize();
@@ -161,7 +161,7 @@ impl Scene {
         self.accessors.len() - 1
     }
 
-    /// The file. `copyright` goes where glTF viewers show it.
+    /// The bytes of the file; `copyright` is shown by glTF viewers.
     pub fn into_glb(mut self, name: &str, copyright: &str) -> Vec<u8> {
         for (node, children) in self.nodes.iter_mut().zip(&self.children) {
             if !children.is_empty() {
@@ -191,7 +191,7 @@ impl Scene {
     }
 }
 
-/// Numbers to a stated number of decimals: short in the file, the same on any machine.
+/// Numbers rounded to multiples of 1/scale.
 fn rounded(values: &[f64], scale: f64) -> Vec<f64> {
     values.iter().map(|v| (v * scale).round() / scale).collect()
 }

@@ -1,8 +1,8 @@
-//! An exhibit folder from any glTF model: its files as they are, and a sidecar that proposes what it may be.
+//! Import of glTF models: an exhibit folder with the model's files and a proposed sidecar.
 //!
-//! A model that carries physics ([`super::khr`]) keeps it. Of any other, each thing that stands at the top of its scene is
-//! proposed as a body that hangs by the point right above its centre, as if on a nail, and feels the wind; what its name
-//! says stands (a floor, a stand) stands still. Masses are volumes times density; an open mesh is taken for sheet.
+//! A model with physics ([`super::khr`]) keeps it. Of other models, each top-level object is proposed as a body that is
+//! nailed above its centre and feels the wind. Objects with names such as floor or stand are fixed. Masses are volumes
+//! times density; an open mesh counts as sheet.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -19,19 +19,19 @@ use soffio_exhibit::{SIDECAR, codes, materials, paths};
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 
-/// Words of names of what stands still.
+/// Words in the names of fixed objects.
 const STATIC_WORDS: [&str; 14] = [
     "stand", "base", "floor", "ground", "wall", "room", "frame", "ceiling", "post", "plinth", "foot", "table", "case",
     "support",
 ];
-/// Proposed for what has no physics of its own, and of its sheet, m.
+/// Proposed material, and thickness of its sheet, m.
 const MATERIAL: &str = "aluminium";
 const SHEET_THICKNESS: f64 = 1e-3;
 
-/// Makes the folder's files from the model at `path`.
+/// The files of an exhibit folder for the model at `path`.
 ///
 /// # Errors
-/// What the loader says about the model, and files beside it that cannot be read.
+/// Problems of the model, and referenced files that cannot be read.
 pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
     let Imported { model, warnings } = import(path)?;
     let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
@@ -58,7 +58,7 @@ fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
     serde_json::from_slice(bytes).map_err(|error| broken(&error))
 }
 
-/// Buffers and images that lie beside the model, by the paths that it names them with.
+/// Buffers and images that the model references, by their paths in the file.
 fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagnostic> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut files: Vec<FolderFile> = Vec::new();
@@ -80,23 +80,21 @@ fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagno
 fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<String>) -> String {
     let physics = khr::physics(model, json);
     let mut out = format!(
-        "# Begun by `soffio import`: a proposal. Look through bodies and joints, and REPLACE the words.\n\
+        "# Made by `soffio import`: a proposal. Check bodies and joints, and REPLACE the texts.\n\
          # `soffio check` with this folder says what is wrong in this file, where, and what to do; `soffio explain` prints each\n\
-         # value with its origin; `soffio schema exhibit` lists every key that may stand here.\n\
+         # value with its origin; `soffio schema exhibit` lists every key.\n\
          schema = \"exhibit/1\"\nmodel = \"{file}\"\nid = \"{id}\"\n\n[scene]\n"
     );
     let camera = model.nodes.iter().position(|node| node.camera.is_some());
     match camera {
         Some(node) => _ = writeln!(out, "camera = {}", quoted(&sidecar_name(model, node))),
-        None => {
-            out.push_str("# The model has no camera: its bounds are framed. camera = \"NodeName\" looks through one.\n")
-        }
+        None => out.push_str("# The model has no camera: its bounds are framed. camera = \"NodeName\" uses one.\n"),
     }
-    out.push_str("# Loudness beside the other exhibits: `soffio loudness --write` finds it.\nlevel = \"0 dB\"\n\n");
+    out.push_str("# Level of all sounds: `soffio loudness --write` makes exhibits equally loud.\nlevel = \"0 dB\"\n\n");
     let moving = match physics {
         Some(physics) => {
             if physics.joints_open {
-                out.push_str("# Joints of the model are open at the start, and draw themselves together.\n[solver]\nassemble = true\n\n");
+                out.push_str("# Some joints of the model are open at the start; the mechanism closes them.\n[solver]\nassemble = true\n\n");
             }
             out.push_str("# ---- from the model's own physics (KHR_physics_rigid_bodies) -------------------------------------------------\n\n");
             for remark in &physics.remarks {
@@ -124,7 +122,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
         let name = quoted(&sidecar_name(model, *node));
         let _ = write!(
             out,
-            "# `soffio sound --list` names the timbres; on = \"impact\" sounds a body when something hits it.\n\
+            "# `soffio sound --list` names the timbres; on = \"impact\" plays at impacts on a body.\n\
              [[sound]]\nname = \"air\"\nbody = {name}\non = \"wind\"\ntimbre = \"wind-room\"\ncaption = \"wind\"\n\n"
         );
         captions.push(("wind", ["[breath rushes past]", "[숨결이 스치는 소리]", "[fruscio del soffio]"]));
@@ -138,7 +136,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
         ["Replace this title", "제목을 바꾸세요", "Titolo da sostituire"],
         ["", "", ""],
         [
-            "REPLACE: what is to be seen.".into(),
+            "REPLACE: a description for visitors who cannot see it.".into(),
             "바꾸세요: 무엇이 보이는지.".into(),
             "DA SOSTITUIRE: che cosa si vede.".into(),
         ],
@@ -146,20 +144,20 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     );
     out.push_str(&labels(&words));
     if let Some(copyright) = json["asset"]["copyright"].as_str().filter(|text| !text.is_empty()) {
-        remarks.push(format!("the model says of its rights: {copyright}"));
+        remarks.push(format!("the model's copyright notice: {copyright}"));
         out = out.replace("\"REPLACE by the maker's name\"", &quoted(copyright));
     }
     out
 }
 
-/// Bodies for what has no physics of its own; those that move.
+/// Proposes bodies for a model without physics; returns the moving nodes.
 fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<usize> {
     out.push_str(
         "# ---- bodies, as proposed --------------------------------------------------------------------------------------\n\
-         # A body moves as one, with what hangs below its node. Each hangs by a nail above its centre: put the nail where the\n\
-         # thing really hangs, or join two of them ([[constraint.point-to-point]]). What is listed nowhere stands still.\n\n",
+         # A body moves as one with the nodes below it. Each hangs on a nail above its centre: put the nail where the object\n\
+         # really hangs, or join two of them ([[constraint.point-to-point]]). Nodes that are not listed are fixed.\n\n",
     );
-    // What holds all (an empty node at the top) is no thing itself.
+    // An empty node that contains everything is not an object itself.
     let mut objects: Vec<usize> = model.roots.clone();
     while let [only] = objects[..]
         && model.nodes[only].mesh.is_none()
@@ -175,7 +173,7 @@ fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) ->
         }
         let lower = model.nodes[node].name.to_lowercase();
         if let Some(word) = STATIC_WORDS.iter().find(|word| lower.contains(**word)) {
-            remarks.push(format!("node \"{name}\" stands still: its name says {word}"));
+            remarks.push(format!("node \"{name}\" is fixed: its name contains \"{word}\""));
             continue;
         }
         let density = materials::builtin(MATERIAL).map_or(1.0, |material| material.density);
@@ -193,15 +191,15 @@ fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) ->
             first += own.mass * own.center();
         }
         if mass <= 0.0 || !mass.is_finite() {
-            remarks.push(format!("node \"{name}\" has no volume, or its faces point inwards: it stands still"));
+            remarks.push(format!("node \"{name}\" has no volume, or its faces point inwards: it is fixed"));
             continue;
         }
         let (low, high) = boxes[i];
-        // A hand's width above what it hangs by, as on a cord; at least its own height's tenth.
+        // The nail is above the object as on a cord, by a tenth of its height, at least 2 cm.
         let hook = (first / mass).with_y(high.y + (0.1 * (high.y - low.y)).max(0.02));
         let local = model.nodes[node].world.inverse().transform_point3(hook);
         let sheet_thickness = if open {
-            format!("thickness = \"{} mm\"  # its mesh is open: taken for sheet\n", 1e3 * SHEET_THICKNESS)
+            format!("thickness = \"{} mm\"  # its mesh is open: treated as sheet\n", 1e3 * SHEET_THICKNESS)
         } else {
             String::new()
         };
@@ -215,22 +213,23 @@ fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) ->
             toml_vector(local),
             toml_vector(hook)
         );
-        remarks.push(format!("node \"{name}\" is a body of {:.1} g as {MATERIAL}, hung above its centre", 1e3 * mass));
+        remarks
+            .push(format!("node \"{name}\" is a body of {:.1} g as {MATERIAL}, nailed above its centre", 1e3 * mass));
         let touches = |k: usize| k != i && boxes[k].0.cmple(high).all() && low.cmple(boxes[k].1).all();
         if (0..objects.len()).any(touches) {
-            remarks.push(format!("node \"{name}\" reaches into another's bounds: it has no collider yet"));
+            remarks.push(format!("node \"{name}\" overlaps another's bounds: it has no collider yet"));
         } else if let Some(fit) = fit(model, node) {
             let _ = write!(out, "[[collider]]\nnode = {node_name}\nshape = {{ fit = \"{fit}\" }}\n\n");
         }
         moving.push(node);
     }
     if moving.is_empty() {
-        remarks.push("nothing moves yet: name a node as a [[body]]".to_owned());
+        remarks.push("nothing moves yet: declare a node as a [[body]]".to_owned());
     }
     moving
 }
 
-/// The box of meshes; empty where there is none.
+/// Bounding box of meshes; empty where there is none.
 fn bounds(solids: &[TriangleMesh]) -> (DVec3, DVec3) {
     let none = (DVec3::splat(f64::INFINITY), DVec3::splat(f64::NEG_INFINITY));
     solids.iter().flat_map(|mesh| &mesh.positions).fold(none, |(low, high), p| (low.min(*p), high.max(*p)))

@@ -1,9 +1,10 @@
-//! Physics that a glTF model carries, as our sidecar says it: `KHR_physics_rigid_bodies` with `KHR_implicit_shapes` (drafts
-//! of the Khronos Group, 2024 to 2026; <https://github.com/eoineoineoin/glTF_Physics>).
+//! Import of glTF physics: `KHR_physics_rigid_bodies` with `KHR_implicit_shapes` (drafts of the Khronos Group, 2024 to
+//! 2026; <https://github.com/eoineoineoin/glTF_Physics>) as sidecar tables.
 //!
-//! Motions become bodies, shapes colliders, materials materials (with a pair for each combine rule), joints constraints:
-//! limits that leave no way lock their axes, and what is locked names the joint. Frames are nodes there and here, so
-//! every joint names its two nodes. What cannot be said in our words is told, node by node; nothing is dropped in silence.
+//! Motions become bodies, shapes colliders, materials materials (with a pair for each combine rule), joints
+//! constraints. Limits without freedom lock their axes, and the locked axes determine the kind of joint. Frames are
+//! nodes in both formats, so every joint names its two nodes. What the sidecar cannot express is reported, node by
+//! node.
 
 use std::fmt::Write;
 
@@ -17,21 +18,21 @@ use soffio_exhibit::model::Model;
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose};
 
-/// Names of the extensions.
+/// Name of the physics extension.
 pub const PHYSICS: &str = "KHR_physics_rigid_bodies";
-/// Shapes without a mesh.
+/// Name of the shape extension.
 pub const SHAPES: &str = "KHR_implicit_shapes";
-/// The extension knows no density: water's, kg/m³.
+/// The extension has no density: that of water, kg/m³.
 const DENSITY: f64 = 1000.0;
-/// Most pairs of materials and of colliders that are written one by one.
+/// Most pairs of materials and of colliders that are written.
 const MAX_PAIRS: usize = 400;
 
-/// A model's physics in our words.
+/// A model's physics as sidecar tables.
 #[derive(Clone, Debug, Default)]
 pub struct Physics {
     /// Tables of the sidecar.
     pub text: String,
-    /// What was not taken over as it was, and why.
+    /// What was changed or left out, and why.
     pub remarks: Vec<String>,
     /// Nodes that move by forces.
     pub moving: Vec<usize>,
@@ -39,7 +40,7 @@ pub struct Physics {
     pub joints_open: bool,
 }
 
-/// Reads a model's physics; `None` where it has none. `json` is the file's own.
+/// Converts a model's physics; `None` where it has none. `json` is the file's JSON.
 pub fn physics(model: &Model, json: &Value) -> Option<Physics> {
     let mut reader = Reader { model, json, out: Physics::default() };
     let carries = (0..model.nodes.len()).any(|node| reader.extension(node).is_some());
@@ -52,13 +53,13 @@ pub fn physics(model: &Model, json: &Value) -> Option<Physics> {
     })
 }
 
-/// Three numbers.
+/// A vector of three numbers.
 pub(super) fn vector(value: &Value) -> Option<DVec3> {
     let numbers: Vec<f64> = value.as_array()?.iter().filter_map(Value::as_f64).collect();
     <[f64; 3]>::try_from(numbers).ok().map(DVec3::from)
 }
 
-/// A shape of stated size, in a frame of its own.
+/// A shape of stated size, in its own frame.
 enum Solid {
     Sphere {
         radius: f64,
@@ -66,7 +67,7 @@ enum Solid {
     Box {
         size: DVec3,
     },
-    /// Height between the centres of the ends.
+    /// `height` is the distance between the centres of the ends.
     Capsule {
         height: f64,
         radius: f64,
@@ -93,7 +94,7 @@ impl Solid {
         }
     }
 
-    /// Volume, and moments about the centre over the mass.
+    /// Volume, m³, and moments of inertia about the centre over the mass, m².
     fn volume(&self) -> (f64, DVec3) {
         match *self {
             Self::Sphere { radius } => (4.0 / 3.0 * PI * radius * radius * radius, DVec3::splat(0.4 * radius * radius)),
@@ -107,7 +108,7 @@ impl Solid {
             Self::Capsule { height: h, radius: r } => {
                 let (tube, ends) = (PI * r * r * h, 4.0 / 3.0 * PI * r * r * r);
                 let volume = tube + ends;
-                // Half a ball's centre is 3r/8 from its face.
+                // A hemisphere's centre of mass is 3r/8 from its face.
                 let across = tube * (3.0 * r * r + h * h) / 12.0 + ends * (0.4 * r * r + 0.25 * h * h + 0.375 * h * r);
                 let along = tube * 0.5 * r * r + ends * 0.4 * r * r;
                 (volume, DVec3::new(across, along, across) / volume)
@@ -124,12 +125,12 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// A node's physics.
+    /// A node's physics extension.
     pub(super) fn extension(&self, node: usize) -> Option<&Value> {
         self.json["nodes"].get(node)?.get("extensions")?.get(PHYSICS)
     }
 
-    /// A list of the extension at the top of the file.
+    /// A top-level list of the extension.
     pub(super) fn list(&self, key: &str) -> &[Value] {
         self.json["extensions"][PHYSICS][key].as_array().map_or(&[], Vec::as_slice)
     }
@@ -139,7 +140,7 @@ impl Reader<'_> {
         self.out.remarks.push(format!("node \"{name}\": {what}"));
     }
 
-    /// The node with a motion that this one moves with.
+    /// The nearest ancestor with a motion, or the node itself.
     pub(super) fn moving_ancestor(&self, node: usize) -> Option<usize> {
         std::iter::successors(Some(node), |&n| self.model.nodes[n].parent)
             .find(|&n| self.extension(n).is_some_and(|extension| extension.get("motion").is_some()))
@@ -161,9 +162,7 @@ impl Reader<'_> {
             );
         }
         if list.len() * (list.len() + 1) / 2 > MAX_PAIRS {
-            self.out
-                .remarks
-                .push(format!("{} materials: their pairs combine by our rule, the geometric mean", list.len()));
+            self.out.remarks.push(format!("{} materials: their pairs combine by the geometric mean", list.len()));
             return;
         }
         for (i, a) in list.iter().enumerate() {
@@ -200,7 +199,7 @@ impl Reader<'_> {
             }
             if kinematic || infinite {
                 let why = if kinematic { "is kinematic and has no animation" } else { "has an infinite mass" };
-                self.remark(node, format_args!("{why}: it stands still"));
+                self.remark(node, format_args!("{why}: it is fixed"));
                 table.push_str("motion = \"static\"\n\n");
                 self.out.text.push_str(&table);
                 continue;
@@ -219,14 +218,15 @@ impl Reader<'_> {
                 let _ = writeln!(table, "initial = {{ {} }}", initial.join(", "));
             }
             if motion["gravityFactor"].as_f64().is_some_and(|factor| factor != 1.0) {
-                self.remark(node, "gravityFactor is not taken over: gravity is one for all, [scene] gravity");
+                self.remark(node, "gravityFactor is skipped: all bodies have the gravity of [scene]");
             }
             table.push('\n');
             self.out.text.push_str(&table);
         }
     }
 
-    /// Material, mass, centre and inertia: as given; else of the shapes, as the extension has it; else of the mesh.
+    /// Writes material, mass, centre and inertia: given ones, else those of the shapes, as the extension says, else of
+    /// the mesh.
     fn write_mass(&mut self, node: usize, motion: &Value, table: &mut String) {
         let material = self
             .nodes_of_body(node)
@@ -247,7 +247,7 @@ impl Reader<'_> {
             if let Some(center) = vector(&motion["centerOfMass"]) {
                 let _ = writeln!(table, "center_of_mass = {}", toml_vector(center));
             } else if shapes.mass > 0.0 {
-                // Node space may be scaled.
+                // Node space can be scaled.
                 let center = self.model.nodes[node]
                     .world
                     .inverse()
@@ -264,10 +264,7 @@ impl Reader<'_> {
                 }
                 other => {
                     if other.is_some() {
-                        self.remark(
-                            node,
-                            "an infinite moment of inertia is not taken over; hold its axis by a constraint",
-                        );
+                        self.remark(node, "an infinite moment of inertia is skipped; lock its axis by a constraint");
                     }
                     if shapes.mass > 0.0 {
                         let (moments, axes) =
@@ -288,12 +285,12 @@ impl Reader<'_> {
         }
     }
 
-    /// Nodes that move with a motion's node.
+    /// Nodes that move with a body's node.
     fn nodes_of_body(&self, node: usize) -> Vec<usize> {
         (0..self.model.nodes.len()).filter(|&n| self.moving_ancestor(n) == Some(node)).collect()
     }
 
-    /// What the shapes of a body weigh, in its rigid frame.
+    /// Mass properties of a body's shapes, in its rigid frame.
     fn shape_mass(&mut self, node: usize) -> MassProperties {
         let base = rigid_frame(self.model, node);
         let mut total = NO_MASS;
@@ -309,10 +306,10 @@ impl Reader<'_> {
         total
     }
 
-    /// The shape that a node collides as, at its node's scale, and what is lost in our words.
+    /// The collision shape of a node at its scale, and what the conversion changes.
     fn solid(&self, node: usize, reported: bool) -> Option<(Solid, Option<String>)> {
         let collider = self.extension(node)?.get("collider")?;
-        // The draft has moved it: collider.shape, then collider.geometry.shape.
+        // Drafts differ: collider.shape, then collider.geometry.shape.
         let index = collider["geometry"]["shape"].as_u64().or(collider["shape"].as_u64())?;
         let shape = self.json["extensions"][SHAPES]["shapes"].get(usize::try_from(index).ok()?)?;
         let kind = shape["type"].as_str()?;
@@ -325,8 +322,9 @@ impl Reader<'_> {
         let mut radius = |default: f64| {
             let (top, bottom) = (number("radiusTop", default), number("radiusBottom", default));
             if reported && top != bottom {
-                lost =
-                    Some(format!("its {kind} is {bottom} m wide at one end and {top} m at the other: taken as even"));
+                lost = Some(format!(
+                    "its {kind} is {bottom} m wide at one end and {top} m at the other: both become the mean"
+                ));
             }
             0.5 * (top + bottom) * round
         };
@@ -337,7 +335,7 @@ impl Reader<'_> {
             "cylinder" => Solid::Cylinder { height: number("height", 0.5) * scale.y, radius: radius(0.25) },
             "plane" => {
                 if reported && (extension.get("sizeX").is_some() || extension.get("sizeZ").is_some()) {
-                    lost = Some("its plane has an end: taken as endless".to_owned());
+                    lost = Some("its plane is finite: it becomes infinite".to_owned());
                 }
                 Solid::Plane
             }
@@ -353,7 +351,7 @@ impl Reader<'_> {
             if extension.get("trigger").is_some() {
                 self.remark(
                     node,
-                    "its trigger is not taken over: constraints here wait for hits or a breath (trigger = …)",
+                    "its trigger is skipped: constraints here wait for impacts or a breath (trigger = …)",
                 );
             }
             let Some(collider) = extension.get("collider") else { continue };
@@ -381,9 +379,7 @@ impl Reader<'_> {
             }
         }
         if joints_open.len() > MAX_PAIRS {
-            self.out
-                .remarks
-                .push(format!("{} pairs that its filters keep apart are not taken over", joints_open.len()));
+            self.out.remarks.push(format!("{} pairs excluded by its filters are skipped", joints_open.len()));
         } else if !joints_open.is_empty() {
             let _ = write!(
                 self.out.text,
@@ -401,7 +397,7 @@ impl Reader<'_> {
             }
             let still = self.moving_ancestor(node).is_none();
             if matches!(solid, Solid::Plane) && !still {
-                self.remark(node, "its plane moves: not taken over, write a box");
+                self.remark(node, "its plane moves: skipped, use a box");
                 return None;
             }
             return Some(solid.toml());
@@ -412,19 +408,19 @@ impl Reader<'_> {
         let here = of.unwrap_or(node);
         let by_number = geometry["mesh"].as_u64().map(|m| m as usize);
         if here != node || by_number.is_some_and(|mesh| self.model.nodes[node].mesh != Some(mesh)) {
-            self.remark(node, "collides as the mesh of another node: not taken over; give it that mesh, or a shape");
+            self.remark(node, "collides as the mesh of another node: skipped; give it that mesh, or a shape");
             return None;
         }
         if self.model.nodes[node].mesh.is_none() {
-            self.remark(node, "collides as nothing that is known here: not taken over");
+            self.remark(node, "has an unknown collision shape: skipped");
             return None;
         }
         let Some(fit) = fit(self.model, node) else {
-            self.remark(node, "nothing can be fitted to its mesh: it has no collider");
+            self.remark(node, "no shape can be fitted to its mesh: it has no collider");
             return None;
         };
         if geometry["convexHull"].as_bool() != Some(true) {
-            self.remark(node, "collides as its triangles: its convex hull is taken");
+            self.remark(node, "collides as its triangles: its convex hull is used");
         }
         Some(format!("{{ fit = \"{fit}\" }}"))
     }
@@ -439,7 +435,7 @@ impl Reader<'_> {
     }
 }
 
-/// Two coefficients by the stronger of two rules.
+/// Combines two coefficients by the rule with higher precedence.
 fn combined(x: f64, y: f64, rules: [&str; 2]) -> f64 {
     let either = |rule: &str| rules.contains(&rule);
     if either("average") {
@@ -453,7 +449,7 @@ fn combined(x: f64, y: f64, rules: [&str; 2]) -> f64 {
     }
 }
 
-/// Does what has filter `a` wish to meet what has filter `b`?
+/// Does a collider with filter `a` collide with one with filter `b`?
 fn collides(a: &Value, b: &Value) -> bool {
     let words = |value: &Value| -> Option<Vec<String>> {
         Some(value.as_array()?.iter().filter_map(|word| word.as_str().map(str::to_owned)).collect())
@@ -463,16 +459,16 @@ fn collides(a: &Value, b: &Value) -> bool {
     named(&a["collideWithSystems"]).unwrap_or(true) && !named(&a["notCollideWithSystems"]).unwrap_or(false)
 }
 
-/// World rotation of a node, whatever its scale.
+/// World rotation of a node, without scale.
 pub(super) fn rotation_of(model: &Model, node: usize) -> DQuat {
     let axes = DMat3::from_mat4(model.nodes[node].world);
     let unit = |v: DVec3| v.normalize_or(DVec3::X);
     let (x, y) = (unit(axes.x_axis), unit(axes.y_axis));
-    // A mirrored frame has no rotation: its third axis is then the other one.
+    // A mirrored frame has no rotation: its third axis is reversed.
     DQuat::from_mat3(&DMat3::from_cols(x, y, x.cross(y))).normalize()
 }
 
-/// Pose of a node without its scale.
+/// Pose of a node without scale.
 fn rigid_frame(model: &Model, node: usize) -> Pose {
     Pose { rotation: rotation_of(model, node), position: model.nodes[node].world.w_axis.truncate() }
 }

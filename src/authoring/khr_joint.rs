@@ -1,7 +1,7 @@
 //! One joint of `KHR_physics_rigid_bodies` as constraints of the sidecar.
 //!
-//! Its limits name axes of the joint's node, and how far the connected node may be from it along or about them. A limit
-//! that leaves nothing locks its axes; the locked axes (linear, angular) decide the kind:
+//! Limits name axes of the joint's node, and the range of the connected node along or about them. A limit without range
+//! locks its axes; the locked axes (linear, angular) determine the kind:
 //!
 //! ```text
 //! xyz, –        point-to-point          xyz, two    hinge about the third       two, xyz    slider along the third
@@ -9,8 +9,8 @@
 //! any other: a plane for each linear axis, an orientation for each angular one
 //! ```
 //!
-//! There the connected node moves against the joint's; here a hinge counts the turn of its own body: where that is the
-//! joint's node, the sign turns.
+//! In the extension the connected node moves relative to the joint's node; in the sidecar a hinge counts the rotation
+//! of its own body. Where that is the joint's node, the sign changes.
 
 use std::fmt::Write;
 
@@ -21,18 +21,18 @@ use super::nodes::{sidecar_name, toml_vector};
 use super::texts::quoted;
 use soffio_math::{DVec3, PI, acos};
 
-/// Frames that are nearer to each other at rest are together, m and rad: seven digits of a file.
+/// Tolerance of frames that coincide in the model, m and rad: seven digits of a file.
 const SAME_POINT: f64 = 1e-6;
-/// What is left by a limit that leaves nothing, m or rad.
+/// Width of a range that counts as locked, m or rad.
 const ZERO_LIMIT: f64 = 1e-9;
 
-/// What limits say.
+/// The limits of a joint.
 #[derive(Default)]
 struct Limits {
-    /// Axes along and about which nothing is left.
+    /// Locked linear and angular axes.
     linear: [bool; 3],
     angular: [bool; 3],
-    /// Axis, least and greatest, where something is left.
+    /// Axis, least and greatest value of each range.
     ways: Vec<(usize, Option<f64>, Option<f64>)>,
     turns: Vec<(usize, Option<f64>, Option<f64>)>,
 }
@@ -42,36 +42,36 @@ fn axes(limit: &Value, key: &str) -> Vec<usize> {
     list.map(|axis| axis as usize).filter(|&axis| axis < 3).collect()
 }
 
-/// Takes a joint over; says what is lost.
+/// Converts a joint; reports what is lost.
 pub(super) fn convert_joint(reader: &mut Reader, node: usize, joint: &Value) {
     let count = reader.model.nodes.len();
     let Some(other) = joint["connectedNode"].as_u64().map(|n| n as usize).filter(|&n| n < count) else {
-        return reader.remark(node, "its joint connects nothing: not taken over");
+        return reader.remark(node, "its joint connects nothing: skipped");
     };
     let description = joint["joint"].as_u64().and_then(|i| reader.list("physicsJoints").get(i as usize)).cloned();
     let Some(description) = description else {
-        return reader.remark(node, "its joint has no description: not taken over");
+        return reader.remark(node, "its joint has no description: skipped");
     };
     let (extension, theirs) = (reader.moving_ancestor(node), reader.moving_ancestor(other));
     if extension == theirs {
-        return reader.remark(node, "its joint holds nothing that moves against another: not taken over");
+        return reader.remark(node, "its joint joins no moving body: skipped");
     }
     if joint["enableCollision"].as_bool() == Some(true) {
-        reader.remark(node, "joined bodies never collide here, unless [collision] constrained_pairs = \"collide\"");
+        reader.remark(node, "joined bodies do not collide here, unless [collision] constrained_pairs = \"collide\"");
     }
     let limits = read(reader, node, &description);
-    // The first body of a constraint moves.
+    // The first body of a constraint must move.
     let (a, b, sign) = if extension.is_some() { (node, other, -1.0) } else { (other, node, 1.0) };
     let place = |n: usize| reader.model.nodes[n].world.w_axis.truncate();
     let gap = place(a).distance(place(b));
     let turn = 2.0 * acos(rotation_of(reader.model, a).dot(rotation_of(reader.model, b)).abs().min(1.0));
     if gap > SAME_POINT {
-        reader.remark(node, format_args!("its two frames are {gap:.6} m apart: they come together at the start"));
+        reader.remark(node, format_args!("its two frames are {gap:.6} m apart: they are closed at the start"));
         reader.out.joints_open = true;
     }
     if turn > 1e3 * SAME_POINT && limits.angular.iter().any(|locked| *locked) {
         let degrees = turn * 180.0 / PI;
-        reader.remark(node, format_args!("its two frames are turned by {degrees:.3}°: that is held as it is at rest"));
+        reader.remark(node, format_args!("its two frames differ by {degrees:.3}°: this angle is kept"));
     }
     let name = slug(&reader.model.nodes[node].name, node);
     let text = constraint(reader, &name, [a, b], &limits, sign);
@@ -84,14 +84,14 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
     for limit in description["limits"].as_array().into_iter().flatten() {
         let (min, max) = (limit["min"].as_f64(), limit["max"].as_f64());
         if limit["stiffness"].as_f64().is_some() {
-            reader.remark(node, "a soft limit is taken as a hard one");
+            reader.remark(node, "a soft limit becomes a hard one");
         }
         for (key, angular) in [("linearAxes", false), ("angularAxes", true)] {
             let on = axes(limit, key);
             if on.is_empty() || (min.is_none() && max.is_none()) {
                 continue;
             }
-            // A distance in a plane or in space has no sign: its least is nothing.
+            // A distance in a plane or in space has no sign: its least value is zero.
             let least = if on.len() > 1 { min.unwrap_or(0.0) } else { min.unwrap_or(f64::NEG_INFINITY) };
             let greatest = max.unwrap_or(f64::INFINITY);
             if least.abs() < ZERO_LIMIT && greatest.abs() < ZERO_LIMIT {
@@ -102,17 +102,15 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
                 ranges.push((on[0], min, max));
             } else {
                 let what = if angular { "a cone" } else { "a distance" };
-                reader.remark(
-                    node,
-                    format_args!("{what} within {least} to {greatest} is not taken over; see constraint.limit"),
-                );
+                reader
+                    .remark(node, format_args!("{what} within {least} to {greatest} is skipped; see constraint.limit"));
             }
         }
     }
     limits
 }
 
-/// Axes that are locked, or that are not.
+/// Axes that are locked (`wanted`), or that are not.
 fn axes_where(locked: [bool; 3], wanted: bool) -> Vec<usize> {
     (0..3).filter(|&i| locked[i] == wanted).collect()
 }
@@ -164,8 +162,8 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
                     unit(i)
                 );
             }
-            // No turn about i: the axis after it stays across the one after that. Of two locked turns, the third axis stays
-            // across both.
+            // A locked rotation about i keeps the next axis perpendicular to the one after it. With two locked
+            // rotations, the third axis stays perpendicular to both.
             let pairs: Vec<(usize, usize)> = match (angular.len(), free_turns.first()) {
                 (2, Some(&axis)) => angular.iter().map(|&i| (axis, i)).collect(),
                 _ => angular.iter().map(|&i| ((i + 1) % 3, (i + 2) % 3)).collect(),
@@ -182,15 +180,18 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
         }
     };
     if used < limits.ways.len() + limits.turns.len() {
-        reader.remark(a, "bounds beside a hinge's turn and a slider's way are not taken over; see constraint.limit");
+        reader.remark(
+            a,
+            "bounds other than a hinge's rotation and a slider's displacement are skipped; see constraint.limit",
+        );
     }
     if text.is_empty() {
-        reader.remark(a, "its joint leaves all free: nothing to take over");
+        reader.remark(a, "its joint constrains nothing: skipped");
     }
     text
 }
 
-/// Drives: a spring about a hinge's axis; others are told.
+/// Drives: springs about a hinge's axis are converted, others are reported.
 fn drives(reader: &mut Reader, node: usize, name: &str, description: &Value, limits: &Limits, sign: f64) {
     let free = axes_where(limits.angular, false);
     let hinge = axes_where(limits.linear, true).len() == 3 && free.len() == 1;
@@ -200,11 +201,11 @@ fn drives(reader: &mut Reader, node: usize, name: &str, description: &Value, lim
         let spring = drive["type"] == "angular" && hinge && about == free.first().copied();
         let moved = number("velocityTarget").is_some_and(|v| v != 0.0);
         if !spring || drive["mode"] == "acceleration" || moved {
-            reader.remark(node, "a drive that is no spring about a hinge is not taken over; see constraint.spring");
+            reader.remark(node, "a drive other than a spring about a hinge is skipped; see constraint.spring");
             continue;
         }
         if number("maxForce").is_some() {
-            reader.remark(node, "its spring has no greatest force here");
+            reader.remark(node, "the largest force of its spring is skipped");
         }
         let (target, stiffness) = (sign * number("positionTarget").unwrap_or(0.0), number("stiffness").unwrap_or(0.0));
         let damping = number("damping").unwrap_or(0.0);
@@ -215,7 +216,7 @@ fn drives(reader: &mut Reader, node: usize, name: &str, description: &Value, lim
     }
 }
 
-/// A unique name of the sidecar from a node's.
+/// A unique sidecar name from a node's name.
 fn slug(name: &str, node: usize) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let text: String = name.chars().map(plain).take(40).collect();

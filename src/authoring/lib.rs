@@ -1,18 +1,19 @@
-//! Models made from stated dimensions: sheet metal, wire, wood, and where they balance; glTF and sidecars written down.
+//! Model making: sheet metal, wire and wood from stated dimensions, balanced mobiles, glTF files and sidecars.
 //!
-//! The shipped exhibits (`exhibits/forge`) and those that a curator begins (`soffio new`) are made by the same code.
-//! Invariant: no clock, no randomness without a stated seed, software transcendentals: the same dimensions give the same
-//! bytes on any machine. Drawings alone ([`drawing`]) pass through arithmetic that is not ours.
+//! The shipped exhibits (`exhibits/forge`) and new ones of curators (`soffio new`) are made by the same code.
+//! Invariant: no clock, no unseeded randomness, software transcendentals, so the same dimensions give the same bytes on
+//! any machine. Only drawings ([`drawing`]) use arithmetic of other crates.
 //!
-//! It never writes a file: it returns the bytes of a folder ([`ExhibitFolder`]), and the program writes them. It never simulates.
+//! The crate writes no file: it returns the files of a folder ([`ExhibitFolder`]), which the program writes. It does
+//! not simulate.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`starter`], [`template`], [`notes`] | the folders that `soffio new` begins: a mobile, a chime, a copy, an empty one |
-//! | [`imported`], [`khr`] | a sidecar for a glTF model from elsewhere |
-//! | [`drawing`], [`outline`] | outlines from an SVG, splines, rings |
+//! | [`starter`], [`template`], [`notes`] | new folders of `soffio new`: a mobile, a chime, a copy, an empty exhibit |
+//! | [`imported`], [`khr`] | sidecars for glTF models from elsewhere |
+//! | [`drawing`], [`outline`] | outlines from SVG, splines, rings |
 //! | [`solid`], [`piece`], [`stock_parts`] | sheet metal, turned parts and wire, with their mass |
-//! | [`mobile`], [`hanging`] | branches that balance, and what hangs on them |
+//! | [`mobile`], [`tree`], [`hanging`] | balanced branches and their loads |
 //! | [`glb`], [`model_writer`] | the glTF writer |
 //!
 //! ```
@@ -78,12 +79,12 @@ impl ExhibitFolder {
     }
 }
 
-/// Is this an id: lower-case letters, digits and hyphens, at most 64 of them?
+/// Reports a wrong id: ids are lower-case letters, digits and hyphens, at most 64.
 pub fn id_problem(id: &str) -> Option<Diagnostic> {
     let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit();
     let good = id.len() <= 64 && id.starts_with(plain) && id.chars().all(|c| plain(c) || c == '-');
     (!good).then(|| {
-        Diagnostic::new(soffio_exhibit::codes::NEW, format!("\"{id}\" is no id for an exhibit"))
+        Diagnostic::new(soffio_exhibit::codes::NEW, format!("\"{id}\" is not an id for an exhibit"))
             .help("use lower-case letters, digits and hyphens, such as \"red-mobile\"")
     })
 }

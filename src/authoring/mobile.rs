@@ -1,12 +1,12 @@
-//! Mobiles: branches that balance, pieces that hang on one another, and the figures of the whole.
+//! Balanced mobiles: branches, hanging pieces, and the statics of the whole.
 //!
-//! A piece is at rest when the torque of its own weight and of the loads at its joints about the point it hangs on
-//! is zero, that is when Σ mᵢ xᵢ = Σ mᵢ zᵢ = 0 in its own frame. For a straight branch of length l with loads m_L,
-//! m_R and wire mass w the loop sits at a = (m_R l + w l/2)/(m_L + m_R + w) from the left; [`branch`] starts near
-//! there and lets the true centre of the bent wire correct it. A branch is stable because its loop stands above
-//! the line of its loads.
+//! A piece is in equilibrium when the torque of its own weight and of the loads at its joints about its hook is zero: Σ
+//! mᵢ xᵢ = Σ mᵢ zᵢ = 0 in its own frame. For a straight branch of length l with loads m_L, m_R and wire mass w the loop
+//! is at a = (m_R l + w l/2)/(m_L + m_R + w) from the left. [`branch`] starts near there and corrects it by the true
+//! centre of the bent wire. A branch is stable because its loop is above the line of its loads.
 //!
-//! Invariant: every piece of a [`Mobile`] but the first hangs at a mark of one before it, the poses say where.
+//! Invariant: every piece of a [`Mobile`] except the first hangs at a marker of an earlier one, at the position of its
+//! pose.
 
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
@@ -14,61 +14,61 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
 use super::outline::ring;
 use super::piece::{BentWire, Part, Piece, load, yaw};
 
-/// Corners of an eye bent in wire.
+/// Segments of an eye bent in wire.
 pub const EYE_STEPS: usize = 12;
-/// kg/m³.
+/// Density of steel, kg/m³.
 pub const STEEL: f64 = 7850.0;
-/// Standard weight, m/s²; the period needs it, the balance does not.
+/// Standard gravity, m/s²; the period depends on it, the balance does not.
 const GRAVITY: f64 = 9.81;
 
-/// A balanced work: all pieces, and where they stand at rest.
+/// A balanced mobile: all pieces in their equilibrium poses.
 #[derive(Debug)]
 pub struct Mobile {
-    /// Pieces with the pose of their frames; what carries comes before what hangs.
+    /// Pieces with the poses of their frames; a piece comes before its loads.
     pub pieces: Vec<(Piece, Pose)>,
-    /// What stands still.
+    /// The fixed piece.
     pub stand: Piece,
 }
 
 /// A branch of the mobile.
 pub struct Branch {
-    /// Piece, loop, wire, and the marks of its right (+x) and left (−x) ends.
+    /// Names of the piece, its loop, its wire, and the markers of its right (+x) and left (−x) ends.
     pub names: [&'static str; 5],
-    /// Of the wire, m.
+    /// Radius of the wire, m.
     pub radius: f64,
     /// Radius of the loop and the eyes, m.
     pub eye: f64,
-    /// Between the two loads, m.
+    /// Distance between the two loads, m.
     pub chord: f64,
-    /// How far the right and the left end droop, m.
+    /// Droop of the right and the left end, m.
     pub droop: [f64; 2],
-    /// Straight pieces of each arm.
+    /// Segments of each arm.
     pub steps: usize,
-    /// Right and left, kg.
+    /// Masses at the right and the left end, kg.
     pub loads: [f64; 2],
-    /// What is fixed to the right and to the left end, placed from there.
+    /// Parts fixed to the right and to the left end, relative to it.
     pub tips: [Option<Part>; 2],
 }
 
 impl Branch {
-    /// A piece bent after this, with its loads.
+    /// Mass properties of a piece bent from this branch, with its loads.
     fn loaded(&self, piece: &Piece) -> MassProperties {
         let [.., right, left] = self.names;
         let loads = [load(self.loads[0], piece.marker(right)), load(self.loads[1], piece.marker(left))];
         loads.iter().fold(piece.mass(), |whole, load| whole.combine(load))
     }
 
-    /// What hangs at the right and at the left end and is fixed there, kg.
+    /// Total masses at the right and the left end, kg.
     fn ends(&self) -> [f64; 2] {
         let tip = |k: usize| self.tips[k].as_ref().map_or(0.0, |tip| tip.solid.mass(tip.density).mass);
         [self.loads[0] + tip(0), self.loads[1] + tip(1)]
     }
 }
 
-/// Bends a wire whose right end droops as far as puts the centre of all it carries `depth` m below the loop: what the
-/// period of its tilt follows from. The left end droops, or rises, as drawn.
+/// Bends a wire whose right end droops so far that the centre of all loads is `depth` m below the loop, which
+/// determines the period of its tilt. The left end droops, or rises, as drawn.
 pub fn branch_of_depth(mut drawn: Branch, depth: f64) -> Piece {
-    // The right end's share of the whole is what its droop moves the centre by: Newton's step again.
+    // Newton iteration: the droop moves the centre by the right end's fraction of the whole mass.
     let [right, left] = drawn.ends();
     let share = right / (right + left);
     for _ in 0..20 {
@@ -78,13 +78,13 @@ pub fn branch_of_depth(mut drawn: Branch, depth: f64) -> Piece {
     branch(&drawn)
 }
 
-/// Bends a wire with a loop in it where it balances, and an eye at each end.
+/// Bends a wire with a loop at its balance point, and an eye at each end.
 pub fn branch(branch: &Branch) -> Piece {
     let [name, hook, wire, right_mark, left_mark] = branch.names;
     let bend = |right: f64| {
         let left = branch.chord - right;
         let bottom = branch.radius - 2.0 * branch.eye;
-        // The ends leave the loop level and droop as x², the shape a light wire takes.
+        // The ends leave the loop level and droop as x², the shape of a light wire.
         let [right_droop, left_droop] = branch.droop;
         let arm = |length: f64, side: f64, droop: f64| {
             (1..=branch.steps).map(move |i| {
@@ -121,28 +121,28 @@ pub fn branch(branch: &Branch) -> Piece {
             markers: vec![(hook, DVec3::ZERO), (right_mark, right_eye - rest), (left_mark, left_eye - rest)],
         }
     };
-    // Moving the loop by δ moves all but the loop's own wire by −δ: Newton's step, a contraction.
+    // Newton iteration, a contraction: moving the loop by δ moves everything except the loop's own wire by −δ.
     let [right_end, left_end] = branch.ends();
     let start = left_end / (left_end + right_end) * branch.chord;
     let right = (0..40).fold(start, |right, _| right - branch.loaded(&bend(right)).center.x);
     bend(right)
 }
 
-/// What the two branches of a [`cascade`] are bent from, the upper one first.
+/// Dimensions of the two branches of a [`cascade`], the upper one first.
 pub struct CascadeBranches {
-    /// m.
+    /// Radius of the wire, m.
     pub radius: [f64; 2],
     /// Radius of the loop and the eyes, m.
     pub eye: [f64; 2],
-    /// Between the two loads, m.
+    /// Distance between the two loads, m.
     pub chord: [f64; 2],
-    /// How far the ends droop, m.
+    /// Droop of the ends, m.
     pub droop: [f64; 2],
-    /// The lower branch against the upper one, rad.
+    /// Rotation of the lower branch relative to the upper one, rad.
     pub lower_yaw: f64,
 }
 
-/// Three pieces on two branches: the large one on the left of the upper branch, on its right a lower one with the
+/// Three pieces on two branches: the large one on the left of the upper branch; on its right a lower branch with the
 /// middle and the small one.
 pub fn cascade(hook: DVec3, wires: &CascadeBranches, [large, middle, small]: [Piece; 3], stand: Piece) -> Mobile {
     let bent = |i: usize, names, loads| {
@@ -175,24 +175,23 @@ pub fn cascade(hook: DVec3, wires: &CascadeBranches, [large, middle, small]: [Pi
     Mobile { pieces, stand }
 }
 
-/// The figures of the balanced work.
+/// Statics of a balanced mobile.
 #[derive(Clone, Copy, Debug)]
 pub struct Statics {
-    /// kg.
+    /// Total mass, kg.
     pub total_mass: f64,
-    /// First moment of the weight about each piece's hook over its weight: how far its centre stands from under
-    /// the point it hangs on, m; the worst.
+    /// Largest horizontal distance of a piece's loaded centre of mass from its hook, m.
     pub worst_offset: f64,
-    /// About the vertical through the point, loads at their joints, kg m².
+    /// Moment of inertia about the vertical through the hook, loads at their joints, kg m².
     pub yaw_inertia: f64,
-    /// Depth of the centre of all weights below the point, loads at their joints, m.
+    /// Depth of the centre of mass below the hook, loads at their joints, m.
     pub depth: f64,
-    /// s.
+    /// Period of the tilt, s.
     pub tilt_period: f64,
 }
 
 impl Mobile {
-    /// Mass properties of piece `i` with what hangs below it as loads at its marks, in its own frame.
+    /// Mass properties of piece `i` with its loads at its markers, in its own frame.
     pub fn loaded(&self, i: usize) -> MassProperties {
         let (piece, pose) = &self.pieces[i];
         self.pieces
@@ -205,7 +204,7 @@ impl Mobile {
             .fold(piece.mass(), |whole, load| whole.combine(&load))
     }
 
-    /// Weighs and measures the work.
+    /// Computes the statics of the mobile.
     pub fn statics(&self) -> Statics {
         let top = self.loaded(0);
         let about_point = top.inertia_about(DVec3::ZERO);

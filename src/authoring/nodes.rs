@@ -1,4 +1,4 @@
-//! Nodes of a model as a sidecar calls them, and their meshes as solids in the world.
+//! Names of a model's nodes in a sidecar, and their meshes in the world.
 
 use soffio_exhibit::fit as shapes;
 use soffio_exhibit::model::Model;
@@ -7,11 +7,11 @@ use soffio_math::{DMat3, DVec3};
 
 /// A vector in TOML.
 pub(super) fn toml_vector(v: DVec3) -> String {
-    // Debug writes what no integer holds with an exponent: 1e30 is TOML, its digits are not.
+    // Debug formatting uses an exponent for large numbers: 1e30 is a TOML float, its digits are not.
     format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
 }
 
-/// How the sidecar calls a node: by its name, or by its number where the name is not unique.
+/// Name of a node in the sidecar: its name, or its number where the name is not unique.
 pub(super) fn sidecar_name(model: &Model, node: usize) -> String {
     let name = &model.nodes[node].name;
     let alone = model.nodes.iter().filter(|other| other.name == *name).count() == 1;
@@ -30,7 +30,7 @@ pub(super) fn meshes(model: &Model, root: usize) -> Vec<usize> {
     found
 }
 
-/// The meshes at and below a node, in the world.
+/// The meshes at and below a node, in world coordinates.
 pub(super) fn world_meshes(model: &Model, root: usize) -> Vec<TriangleMesh> {
     let mut solids = Vec::new();
     for node in meshes(model, root) {
@@ -52,12 +52,12 @@ pub(super) fn world_meshes(model: &Model, root: usize) -> Vec<TriangleMesh> {
     solids
 }
 
-/// What can be fitted to the meshes at and below a node, as the sidecar calls it.
+/// The `fit` that suits the meshes at and below a node.
 pub(super) fn fit(model: &Model, node: usize) -> Option<&'static str> {
     let mut whole = TriangleMesh::default();
     world_meshes(model, node).iter().for_each(|mesh| whole.append(mesh));
     let extents = whole.extents()?;
-    // Sheet: twenty times as wide as thick.
+    // A sheet is at least twenty times as wide as thick.
     let flat = extents.half.z < 0.05 * extents.half.y;
     if flat && shapes::plate(&whole, &extents).is_some() {
         return Some("plate");

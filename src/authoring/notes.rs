@@ -1,4 +1,4 @@
-//! Wind chimes of the notes that somebody asks for: how long the tubes are, and the sidecar.
+//! Wind chimes tuned to given notes: tube lengths and sidecar.
 
 use std::fmt::Write;
 
@@ -11,27 +11,30 @@ use soffio_exhibit::diagnostic::Diagnostic;
 use soffio_math::{PI, exp, ln};
 use soffio_sound::modes::{Section, beam_modes};
 
-/// Fewest and most tubes: fewer meet nothing, more do not fit about the striker.
+/// Fewest and most tubes: fewer do not touch the striker, more do not fit around it.
 pub const COUNT: [usize; 2] = [3, 8];
 /// Lowest and highest note, Hz: C4 and C7.
 const FREQUENCY_RANGE: [f64; 2] = [261.0, 2100.0];
-/// A4, Hz.
+/// Concert pitch A4, Hz.
 const CONCERT_PITCH: f64 = 440.0;
 
 /// A note by its name: C5, F#4, Bb5.
 #[derive(Clone, Debug)]
 pub struct Note {
-    /// As it was written.
+    /// The name as it was written.
     pub name: String,
-    /// Hz, equal temperament.
+    /// Frequency in equal temperament, Hz.
     pub frequency: f64,
 }
 
-/// Reads a note.
+/// Parses a note.
+///
+/// # Errors
+/// Where the text is not a note, or the note is out of range.
 pub fn note(text: &str) -> Result<Note, Diagnostic> {
     let name = text.trim();
     let wrong = |why: &str| {
-        Diagnostic::new(codes::NEW, format!("\"{name}\" is no note for a tube{why}"))
+        Diagnostic::new(codes::NEW, format!("\"{name}\" is not a note for a tube{why}"))
             .help("write C5, F#4 or Bb5, from C4 to C7")
     };
     let mut rest = name.chars();
@@ -60,12 +63,12 @@ pub fn note(text: &str) -> Result<Note, Diagnostic> {
     Ok(Note { name: name.to_owned(), frequency })
 }
 
-/// Length (m) of a tube of 6061-T6 whose first bending mode sounds at `frequency` Hz.
+/// Length (m) of a tube of 6061-T6 aluminium whose first bending mode has this frequency (Hz).
 pub fn length(frequency: f64) -> f64 {
     let [outer, wall] = chimes::ALUMINIUM.tube.map(|mm| mm * MM);
     let inner = outer - 2.0 * wall;
     let (youngs_modulus, poisson, density) = (68.9e9, 0.33, chimes::ALUMINIUM.density);
-    // Cowper's coefficient of a tube.
+    // Cowper's shear coefficient of a tube.
     let m = (inner / outer) * (inner / outer);
     let whole = (1.0 + m) * (1.0 + m);
     let shear = 6.0 * (1.0 + poisson) * whole / ((7.0 + 6.0 * poisson) * whole + (20.0 + 12.0 * poisson) * m);
@@ -80,7 +83,7 @@ pub fn length(frequency: f64) -> f64 {
         };
         beam_modes(&section, 1).first().map_or(0.0, |mode| mode.frequency)
     };
-    // Half the length is nearly two octaves up: bisect.
+    // Half the length is nearly two octaves higher, so bisection converges.
     let (mut short, mut long) = (0.1, 1.5);
     for _ in 0..50 {
         let middle = 0.5 * (short + long);
@@ -89,21 +92,24 @@ pub fn length(frequency: f64) -> f64 {
     0.5 * (short + long)
 }
 
-/// Wind chimes of these notes.
+/// Wind chimes with these notes.
+///
+/// # Errors
+/// Where there are too few or too many notes.
 pub fn chime(id: &str, notes: &[Note]) -> Result<ExhibitFolder, Diagnostic> {
     let [fewest, most] = COUNT;
     if !(fewest..=most).contains(&notes.len()) {
-        let message = format!("{} tubes make no chime here", notes.len());
+        let message = format!("{} tubes: too few or too many for a chime", notes.len());
         return Err(Diagnostic::new(codes::NEW, message).help(format!("give {fewest} to {most} notes")));
     }
     let mut sorted: Vec<&Note> = notes.iter().collect();
     sorted.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
-    // A saw cuts to a tenth of a millimetre.
+    // A saw is precise to a tenth of a millimetre.
     let lengths: Vec<f64> = sorted.iter().map(|note| (length(note.frequency) / MM * 10.0).round() / 10.0).collect();
     let design = ChimeDesign { title: id, lengths: &lengths, ..chimes::ALUMINIUM };
     let shipped = include_str!("../../exhibits/wind-chimes/exhibit.toml");
-    let mut out = starter::header(id, "Wind chimes: tubes of aluminium about a wooden disc that a sail drives.");
-    // Materials as the shipped chimes have them.
+    let mut out = starter::header(id, "Wind chimes: aluminium tubes around a wooden disc that a sail moves.");
+    // Materials of the shipped chimes.
     let between = |from: &str, to: &str| {
         let start = shipped.find(from).unwrap_or_default();
         &shipped[start..start + shipped[start..].find(to).unwrap_or_default()]
@@ -132,7 +138,7 @@ pub fn chime(id: &str, notes: &[Note]) -> Result<ExhibitFolder, Diagnostic> {
     out.push_str(between("[[constraint.point-to-point]]\nname = \"striker-on-crown\"", "[[collider]]"));
     let radius = 0.5 * design.tube[0];
     for (k, length) in (1..).zip(&lengths) {
-        // The caps of a capsule are round: its straight part ends a radius before the tube's.
+        // The caps of a capsule are round: its straight part ends a radius before the tube does.
         let height = ((length - 2.0 * radius) * 10.0).round() / 10.0;
         let shape = format!("{{ capsule = {{ height = \"{height} mm\", radius = \"{radius} mm\" }} }}");
         let _ = write!(out, "[[collider]]\nnode = \"Pipe{k}\"\nshape = {shape}\n\n");

@@ -1,10 +1,10 @@
-//! Curves that shapes are cut and bent from: closed outlines in the plane, wires in space.
+//! Cardinal splines: closed outlines in the plane, wires in space.
 //!
 //! Both are drawn as cardinal splines (Catmull and Rom, "A class of local interpolating splines", 1974): the curve
 //! passes through every point given, and its tangent there is half the chord of the two neighbours. A *corner* has
 //! no common tangent: each side leaves it along its own chord.
 //!
-//! Units: whatever the points are in; the callers use metres.
+//! Units are those of the points; the callers use metres and millimetres.
 
 use soffio_math::{DVec2, DVec3, PI, cos, sin};
 
@@ -44,7 +44,7 @@ pub fn closed_spline(knots: &[Knot], steps: usize) -> Polygon {
     for i in 0..n {
         let (p, q) = (at(i), at(i + 1));
         let (u, v) = (tangent(i, q - p), tangent(i + 1, q - p));
-        // Between two corners the curve is a straight line: points on it would only make slivers.
+        // Between two corners the curve is a straight line, which needs no intermediate points.
         let straight = knots[i].is_corner() && knots[(i + 1) % n].is_corner();
         polygon.extend((0..if straight { 1 } else { steps }).map(|k| hermite(p, u, q, v, k as f64 / steps as f64)));
     }
@@ -77,7 +77,7 @@ where
     p * (2.0 * t3 - 3.0 * t2 + 1.0) + u * (t3 - 2.0 * t2 + t) + q * (3.0 * t2 - 2.0 * t3) + v * (t3 - t2)
 }
 
-/// An ellipse as a counter-clockwise polygon of `steps` corners, its first half axis turned by `turn` rad.
+/// An ellipse as a counter-clockwise polygon of `steps` corners, its first half axis rotated by `turn` rad.
 pub fn ellipse(center: DVec2, half_axes: DVec2, turn: f64, steps: usize) -> Polygon {
     let (s, c) = (sin(turn), cos(turn));
     (0..steps)
@@ -89,8 +89,8 @@ pub fn ellipse(center: DVec2, half_axes: DVec2, turn: f64, steps: usize) -> Poly
         .collect()
 }
 
-/// A full turn of wire about `center`, from `center + radius·from` towards `towards` and back, both ends included.
-/// `from` and `towards` are perpendicular unit vectors of the ring's plane.
+/// A full circle of wire about `center`, from `center + radius·from` towards `towards`, both ends included. `from` and
+/// `towards` are perpendicular unit vectors of the ring's plane.
 pub fn ring(center: DVec3, radius: f64, from: DVec3, towards: DVec3, steps: usize) -> Vec<DVec3> {
     (0..=steps)
         .map(|k| {
@@ -101,13 +101,13 @@ pub fn ring(center: DVec3, radius: f64, from: DVec3, towards: DVec3, steps: usiz
         .collect()
 }
 
-/// The polygon walked the other way: material becomes hole.
+/// The polygon in reverse order, which turns material into a hole.
 pub fn reversed(mut polygon: Polygon) -> Polygon {
     polygon.reverse();
     polygon
 }
 
-/// Signed area (counter-clockwise positive) and centroid (the shoelace formula).
+/// Signed area (counter-clockwise positive) and centroid, by the shoelace formula.
 pub fn area_and_centroid(polygon: &[DVec2]) -> (f64, DVec2) {
     let mut twice_area = 0.0;
     let mut moment = DVec2::ZERO;

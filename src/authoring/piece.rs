@@ -1,6 +1,6 @@
-//! A rigid piece of a mobile: what it is cut, turned and bent from, what it weighs, and how it is written down.
+//! Rigid pieces of a mobile: meshes, wires and markers, with their mass.
 //!
-//! Invariant: the mass a piece balances with comes from the very meshes and wires that are written to the file.
+//! Invariant: the mass of a piece comes from the same meshes and wires that are written to the file.
 
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
@@ -8,35 +8,35 @@ use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
 use super::glb::Scene;
 use super::solid::{Solid, wire_mass};
 
-/// A mesh that a piece carries.
+/// A mesh of a piece.
 #[derive(Clone, Debug)]
 pub struct Part {
-    /// Name of its node; the piece's own name puts the mesh on the piece's node.
+    /// Name of its node; a part with the piece's own name is the mesh of the piece's node.
     pub name: &'static str,
-    /// In the frame of the part.
+    /// Mesh, in the frame of the part.
     pub solid: Solid,
-    /// Place of the part's frame in the piece, m and rad.
+    /// Pose of the part's frame in the piece.
     pub place: Pose,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: f64,
     /// Index of the finish in the scene.
     pub finish: usize,
 }
 
-/// A bent wire that a piece carries. The sidecar names its marks and says how it looks.
+/// A bent wire of a piece. The sidecar names its markers and sets its colour.
 #[derive(Clone, Debug)]
 pub struct BentWire {
-    /// Its points are marked `<name>.00`, `<name>.01`, …
+    /// Its points get the markers `<name>.00`, `<name>.01`, …
     pub name: &'static str,
-    /// In the frame of the piece, m.
+    /// Points in the frame of the piece, m.
     pub points: Vec<DVec3>,
-    /// m.
+    /// Radius, m.
     pub radius: f64,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: f64,
 }
 
-/// A rigid piece in its own frame; its origin is the point it hangs or turns on.
+/// A rigid piece in its own frame; its origin is its hook or pivot.
 #[derive(Clone, Debug)]
 pub struct Piece {
     /// Name of its node.
@@ -45,7 +45,7 @@ pub struct Piece {
     pub parts: Vec<Part>,
     /// Wires.
     pub wires: Vec<BentWire>,
-    /// Named points, m.
+    /// Named points in the frame of the piece, m.
     pub markers: Vec<(&'static str, DVec3)>,
 }
 
@@ -65,16 +65,16 @@ impl Piece {
         parts.chain(wires).reduce(|whole, part| whole.combine(&part)).unwrap_or(NO_MASS)
     }
 
-    /// The point marked `name`, in the frame of the piece.
+    /// The point of the marker `name`, in the frame of the piece.
     ///
     /// # Panics
-    /// If the drawing has no such mark: a slip in the drawing, not in its input.
+    /// If there is no such marker, which is a mistake in the drawing.
     pub fn marker(&self, name: &str) -> DVec3 {
         let found = self.markers.iter().find(|(marker, _)| *marker == name);
-        found.unwrap_or_else(|| panic!("{} has no mark {name}", self.name)).1
+        found.unwrap_or_else(|| panic!("{} has no marker {name}", self.name)).1
     }
 
-    /// Writes the piece with its frame at `pose`.
+    /// Adds the piece to the scene with its frame at `pose`.
     pub fn write(&self, scene: &mut Scene, pose: Pose) {
         let node = scene.node(self.name, None, pose.position, pose.rotation);
         for part in &self.parts {
@@ -96,20 +96,21 @@ impl Piece {
     }
 }
 
-/// Nothing: the neutral element of [`MassProperties::combine`].
+/// No mass: the neutral element of [`MassProperties::combine`].
 pub const NO_MASS: MassProperties = MassProperties { mass: 0.0, center: DVec3::ZERO, inertia: DMat3::ZERO };
 
-/// A load of `mass` kg at a joint: what a hanging piece is to the one that carries it, at rest and in slow motion.
+/// A point load of `mass` kg at a joint: how a hanging piece acts on the piece above it, in equilibrium and in slow
+/// motion.
 pub fn load(mass: f64, at: DVec3) -> MassProperties {
     MassProperties { mass, center: at, inertia: DMat3::ZERO }
 }
 
-/// Turn about the vertical, rad.
+/// Rotation about the vertical by `angle`, rad.
 pub fn yaw(angle: f64) -> DQuat {
     rotation(angle * DVec3::Y)
 }
 
-/// A name made from parts. It lasts as long as the program: a model has some hundreds of them, and a program makes few.
+/// A name built at run time; it is leaked, since a program builds only some hundreds of them.
 pub fn named(text: String) -> &'static str {
     text.leak()
 }

@@ -1,12 +1,13 @@
-//! A mobile of the plates that somebody gives: paired, hung, balanced.
+//! Mobiles of given plates: paired, attached and balanced.
 //!
-//! Plates are sorted by weight. Neighbours hang in pairs from a short bough that points towards the visitor, the lighter
-//! one in front and a little lower: a breath drives it against the other, and both ring. (Of an odd number the heaviest
-//! hangs alone.) The pairs hang in a chain, the lightest lowest, each bough turned against the one above.
+//! Plates are sorted by weight. Neighbours hang in pairs from a short branch that points towards the visitor, the
+//! lighter one in front and a little lower: a breath drives it against the other, and both ring. (Of an odd number the
+//! heaviest hangs alone.) The pairs hang in a chain, the lightest lowest, each branch rotated relative to the one
+//! above.
 //!
-//! Whatever hangs from a point reaches at most R from the plumb line through it, however it turns: for a plate the
-//! farthest corner, for a bough the longer of arm + R of what it carries. A chain's bough is longer than the two R at its
-//! ends together, so nothing but the two of a pair ever meets.
+//! R is the farthest distance of a hanging subtree from the plumb line through its hook, for any rotation: of a plate
+//! the farthest corner, of a branch the longest arm + R of its load. A chain's branch is longer than the sum of the two
+//! R at its ends, so only the plates of a pair can touch.
 
 use super::glb::{Finish, Scene};
 use super::hanging::{HOLE_RADIUS, drawn_plate, hang_by_hole};
@@ -25,33 +26,33 @@ pub const COUNT: [usize; 2] = [2, 24];
 pub const EXTENT: [f64; 2] = [15.0, 600.0];
 /// Thinnest and thickest sheet, mm.
 pub const THICKNESS: [f64; 2] = [0.3, 4.0];
-/// A pair's weights differ by no more: the heavy one's arm of a short bough would vanish.
+/// Largest weight ratio of a pair: the heavy plate's arm of the short branch would vanish.
 pub const PAIR_RATIO: f64 = 5.0;
-/// From a plate's upper edge to the middle of its hole, mm, and what is left about the hole.
+/// Distance from a plate's upper edge to the centre of its hole, and least width of sheet around the hole, mm.
 const INSET: f64 = 3.0;
 const RIM: f64 = 0.5;
-/// Where a pair's bough points, rad about the vertical: nearly at the visitor, so that both plates are seen.
+/// Direction of a pair's branch, rad about the vertical: nearly towards the visitor, so that both plates are visible.
 const TOWARDS: f64 = 1.25;
-/// Between things that must never meet, m.
+/// Clearance between parts that must not touch, m.
 const CLEAR: f64 = 12.0 * MM;
-/// The shorter arm of a bough, m: room for two eyes and a loop.
+/// Least length of a branch's shorter arm, m: enough for two eyes and a loop.
 const SHORTEST_ARM: f64 = 5.0 * MM;
-/// Of the lowest point above the floor, m.
+/// Height of the lowest point above the floor, m.
 const ABOVE_FLOOR: f64 = 0.2;
-/// Of the camera, rad, and the picture's width over its height.
+/// Vertical field of view (rad) and aspect of the camera.
 const FOVY: f64 = 27.0 * PI / 180.0;
 const ASPECT: f64 = 16.0 / 9.0;
 
-/// A plate as it is given.
+/// Outline of a plate.
 #[derive(Clone, Debug)]
 pub struct Outline {
-    /// What it is called in messages: its size, or the element of a drawing.
+    /// Name in messages: its size, or the element of a drawing.
     pub name: String,
     /// Closed, counter-clockwise, mm, y upwards.
     pub polygon: Polygon,
 }
 
-/// What plates are cut from.
+/// Metal of the plates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metal {
     /// Painted.
@@ -75,14 +76,14 @@ impl Metal {
         }
     }
 
-    /// What a breath must be multiplied by for a sheet of `thickness` m to answer it as thin aluminium does.
+    /// Gain of the breath that moves a sheet of `thickness` m as much as thin aluminium.
     pub fn gain(self, thickness: f64) -> f64 {
-        /// kg/m²: aluminium of 0.8 mm, which a child's breath swings against its neighbour.
+        /// Mass per area of aluminium of 0.8 mm, kg/m², which a child's breath swings against its neighbour.
         const LIGHT: f64 = 2.16;
         ((self.density() * thickness / LIGHT).max(1.0) * 10.0).round() / 10.0
     }
 
-    /// kg/m³.
+    /// Density, kg/m³.
     fn density(self) -> f64 {
         match self {
             Self::Aluminium => stock_parts::ALUMINIUM,
@@ -119,16 +120,16 @@ pub struct PlacedPlate {
     pub picture_position: [f64; 2],
 }
 
-/// A balanced mobile and its model.
+/// A balanced mobile with its model.
 #[derive(Debug)]
 pub struct PlateMobile {
-    /// The pieces where they hang.
+    /// The placed pieces.
     pub mobile: Mobile,
-    /// The model.
+    /// The model, as a GLB file.
     pub glb: Vec<u8>,
     /// The plates, the heaviest first.
     pub plates: Vec<PlacedPlate>,
-    /// Plates that hang in pairs, by their places in `plates`: the one behind, the one in front.
+    /// Pairs of plates, as indices into `plates`: the back one, the front one.
     pub pairs: Vec<[usize; 2]>,
 }
 
@@ -136,7 +137,7 @@ fn rejection(message: String, help: &str) -> Diagnostic {
     Diagnostic::new(codes::NEW, message).help(help)
 }
 
-/// Can this be cut, and hung by a hole? `None` where it can.
+/// Reports why a plate cannot be cut, or cannot hang by a hole; `None` where it can.
 fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
     let (polygon, name) = (&outline.polygon, &outline.name);
     let low = polygon.iter().copied().reduce(DVec2::min)?;
@@ -156,46 +157,46 @@ fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
     let crossings = sides().filter(|(p, q)| (p.y > 0.0) != (q.y > 0.0) && p.x - p.y * (q.x - p.x) / (q.y - p.y) > 0.0);
     let inside = crossings.count() % 2 == 1;
     if !inside || left.fold(f64::INFINITY, f64::min) < HOLE_RADIUS + RIM {
-        let message = format!("{name} is too narrow above its middle for the hole that it hangs by");
+        let message = format!("{name} is too narrow above its middle for the hole by which it hangs");
         let need = 2.0 * (HOLE_RADIUS + RIM);
         let help =
-            format!("leave {need:.0} mm of sheet about a point {INSET} mm below its upper edge, over its centre");
+            format!("leave {need:.0} mm of sheet around a point {INSET} mm below its upper edge, above its centre");
         return Some(rejection(message, &help));
     }
     None
 }
 
-/// A unit of the chain: what hangs, how far it reaches from its plumb line, and its mass.
+/// A subtree of the chain, its farthest distance from its plumb line, and its mass.
 struct Subtree {
     hanging: TreeNode,
     reach: f64,
     mass: f64,
 }
 
-/// Radius of a wire that bears so many kg without sagging to the eye.
+/// Radius of a wire that bears this mass (kg) without visible sag, m.
 fn wire_for(mass: f64) -> f64 {
     let table = [(0.05, 0.6), (0.15, 0.8), (0.35, 1.0), (0.8, 1.3), (2.0, 1.8)];
     MM * table.iter().find(|(most, _)| mass < *most).map_or(2.5, |(_, radius)| *radius)
 }
 
-/// The farthest that what hangs at the ends of a bough reaches from its loop; the balance decides the arms.
+/// Farthest distance of a branch's loads from its loop; the balance determines the arms.
 fn reach(chord: f64, [right, left]: [&Subtree; 2]) -> f64 {
     let arm = chord * left.mass / (left.mass + right.mass);
     (arm + right.reach).max(chord - arm + left.reach)
 }
 
-/// The unit of a bough that carries two.
+/// The subtree of a branch with two loads.
 fn branch_subtree(name: String, chord: f64, rise: f64, depth: f64, turn: f64, [right, left]: [Subtree; 2]) -> Subtree {
     let reach = reach(chord, [&right, &left]);
     let loads = right.mass + left.mass;
     let radius = wire_for(loads);
-    // The wire and its eyes: once more for what its curve and loop take.
+    // Wire and eyes: as much again as the chord for the curve and the loop.
     let mass = loads + 2.0 * stock_parts::STEEL * PI * radius * radius * chord;
     let ends = [right.hanging, left.hanging];
     Subtree { hanging: TreeNode::branch(BranchNode { name, radius, chord, rise, depth, turn, ends }), reach, mass }
 }
 
-/// A plate ready to hang.
+/// A plate with its stem.
 struct CutPlate {
     piece: Piece,
     reach: f64,
@@ -219,11 +220,11 @@ fn cut(k: usize, outline: &Outline, stem: f64, thickness: f64, metal: Metal, fin
     CutPlate { piece, reach, height }
 }
 
-/// Stem of a plate that hangs alone or behind, m.
+/// Length of the stem of a plate that hangs alone or behind, m.
 const STEM: f64 = 24.0 * MM;
 
-/// Two plates on a short bough, `behind` the heavier; the one in front hangs lower by a third of the other's height. Pair
-/// `number` leans now to one side, now to the other.
+/// Two plates on a short branch, `behind` the heavier; the front one hangs lower by a third of the other's height.
+/// Pairs alternate between both sides by their `number`.
 fn pair(number: usize, behind: &CutPlate, front: &CutPlate, thickness: f64) -> Result<Subtree, Diagnostic> {
     let (heavy, light) = (behind.piece.mass().mass, front.piece.mass().mass);
     if heavy > PAIR_RATIO * light {
@@ -235,14 +236,17 @@ fn pair(number: usize, behind: &CutPlate, front: &CutPlate, thickness: f64) -> R
     let gap = (0.08 * swing).clamp(9.0 * MM, 15.0 * MM) + thickness;
     let chord = (gap / sin(TOWARDS)).max(SHORTEST_ARM * (heavy + light) / light);
     let depth = 0.2 * chord;
-    // Where the balance asks for a longer bough it points more to the side: the plates stay as near to each other.
+    // Where the balance requires a longer branch, it points more to the side, which keeps the gap of the plates.
     let towards = asin(gap / chord);
     let turn = if number % 2 == 1 { towards } else { PI - towards };
     let subtrees = [behind.subtree(0.0), front.subtree(0.0)];
     Ok(branch_subtree(format!("Pair{number}"), chord, -depth, depth, turn, subtrees))
 }
 
-/// Draws, balances and writes a mobile of `outlines`, cut from sheet of `thickness` m; the scene is called `title`.
+/// Designs, balances and writes a mobile of `outlines`, cut from sheet of `thickness` m; the scene is called `title`.
+///
+/// # Errors
+/// All plates that cannot be cut or paired.
 pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<PlateMobile, Vec<Diagnostic>> {
     let problems: Vec<Diagnostic> = outlines.iter().filter_map(plate_problem).collect();
     if !problems.is_empty() {
@@ -250,12 +254,12 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
     }
     let [fewest, most] = COUNT;
     if !(fewest..=most).contains(&outlines.len()) {
-        let message = format!("{} plates make no mobile here", outlines.len());
+        let message = format!("{} plates: too few or too many for a mobile", outlines.len());
         return Err(vec![rejection(message, &format!("give {fewest} to {most} of them"))]);
     }
     let [thinnest, thickest] = THICKNESS.map(|t| t * MM);
     if !(thinnest..=thickest).contains(&thickness) {
-        let message = format!("a sheet of {} mm is not cut and hung here", thickness / MM);
+        let message = format!("a sheet of {} mm is too thin or too thick", thickness / MM);
         return Err(vec![rejection(message, &format!("give {} to {} mm", THICKNESS[0], THICKNESS[1]))]);
     }
     let mut sorted: Vec<&Outline> = outlines.iter().collect();
@@ -277,7 +281,7 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
             let front = cut(*front, STEM + 0.33 * behind.height);
             subtrees.push(pair(number, &behind, &front, thickness)?);
         }
-        // The lightest is the lowest; each bough points the other way.
+        // The lightest is the lowest; the branches point alternately left and right.
         let mut level = subtrees.len();
         let mut subtrees = subtrees.into_iter().rev();
         let lowest = subtrees.next();
@@ -293,7 +297,7 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
         // There are at least two plates, hence a pair.
         chain.map(|subtree| subtree.hanging).ok_or_else(|| rejection("there is no plate".into(), "give at least two"))
     };
-    // Hung from nothing first, to see how low it reaches.
+    // Assembled at the origin first, to find its lowest point.
     let one = |problem| vec![problem];
     let (low, _) = bounds(&assemble_tree(DVec3::ZERO, tree().map_err(one)?));
     let hook = DVec3::new(0.0, ((ABOVE_FLOOR - low.y) * 1e3).ceil() * MM, 0.0);
@@ -314,7 +318,7 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
     Ok(PlateMobile { mobile, glb: scene.into_glb(title, "Made with Soffio from given plates"), plates, pairs })
 }
 
-/// The box of all that pieces are.
+/// Bounding box of placed pieces.
 fn bounds(pieces: &[(Piece, Pose)]) -> (DVec3, DVec3) {
     let corners = pieces.iter().flat_map(|(piece, pose)| {
         let wires = piece.wires.iter().flat_map(|bend| bend.points.clone());
@@ -359,7 +363,7 @@ impl FramingCamera {
 pub fn sized(text: &str) -> Result<Outline, Diagnostic> {
     let wrong = || {
         rejection(
-            format!("\"{text}\" is no size of a plate"),
+            format!("\"{text}\" is not a size of a plate"),
             "write 120x80 (width x height, mm), or 100 for a disc of 100 mm",
         )
     };

@@ -1,8 +1,7 @@
-//! Closed triangle meshes: sheet metal cut from an outline, turned parts, and what they weigh.
+//! Closed triangle meshes: extruded sheet and solids of revolution, with their mass.
 //!
-//! Invariant: every solid is closed and its triangles run counter-clockwise seen from outside, so that its volume
-//! by the divergence theorem is positive and the mass that a loader computes from the file is the mass the forge
-//! balanced with.
+//! Invariant: every solid is closed and its triangles are counter-clockwise seen from outside. So its volume by the
+//! divergence theorem is positive, and the loader computes the same mass from the file.
 
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DMat3, DVec2, DVec3, PI, cos, outer, sin};
@@ -12,25 +11,25 @@ use super::outline::{Polygon, reversed};
 /// A mesh with a normal per vertex.
 #[derive(Clone, Debug, Default)]
 pub struct Solid {
-    /// m.
+    /// Vertices, m.
     pub positions: Vec<DVec3>,
-    /// Unit, outwards.
+    /// Vertex normals, unit, outwards.
     pub normals: Vec<DVec3>,
-    /// Three indices per triangle.
+    /// Vertex indices, three for each triangle.
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// Sheet metal in the plane z = 0: `outline` (counter-clockwise) less `holes` (counter-clockwise as drawn),
-/// `thickness` m, its edges broken by a bevel of `bevel` m.
+/// Extrudes `outline` (counter-clockwise) minus `holes` (also counter-clockwise) to sheet of `thickness` m in the plane
+/// z = 0, with edges bevelled by `bevel` m.
 ///
-/// The bevel's normals turn from the face to the edge, so that the edge catches the light like a filed one.
+/// The bevel's normals blend from the face to the edge, so that the edge catches the light like a filed one.
 pub fn extrude(outline: &Polygon, holes: &[Polygon], thickness: f64, bevel: f64) -> Solid {
     let loops: Vec<Polygon> =
         std::iter::once(outline.clone()).chain(holes.iter().map(|hole| reversed(hole.clone()))).collect();
     let half = 0.5 * thickness;
     let mut solid = Solid::default();
 
-    // Four rings of vertices in the same order: front face, front edge, back edge, back face.
+    // Four loops of vertices in the same order: front face, front edge, back edge, back face.
     let count: usize = loops.iter().map(Vec::len).sum();
     let layers: [(f64, f64, f64); 4] =
         [(bevel, half, 1.0), (0.0, half - bevel, 0.0), (0.0, bevel - half, 0.0), (bevel, -half, -1.0)];
@@ -44,7 +43,7 @@ pub fn extrude(outline: &Polygon, holes: &[Polygon], thickness: f64, bevel: f64)
         }
     }
 
-    // Faces: earcut wants flat coordinates and the index where each hole begins.
+    // Faces: earcut takes flat coordinates and the index at which each hole begins.
     let face: Vec<[f64; 2]> = solid.positions[..count].iter().map(|p| [p.x, p.y]).collect();
     let mut starts = Vec::new();
     let mut next = 0;
@@ -81,7 +80,7 @@ pub fn extrude(outline: &Polygon, holes: &[Polygon], thickness: f64, bevel: f64)
     solid
 }
 
-/// Outward normal of a polygon corner, and how far along it an inset of one reaches (mitre, at most two).
+/// Outward normal of a polygon corner, and the mitre factor of an inset along it, at most two.
 fn corner_normal(polygon: &[DVec2], i: usize) -> (DVec2, f64) {
     let n = polygon.len();
     let before = (polygon[i] - polygon[(i + n - 1) % n]).normalize();
@@ -149,7 +148,7 @@ fn revolution(profile: &[DVec2], ring: bool, segments: usize) -> Solid {
 }
 
 impl Solid {
-    /// The solid with its y axis laid along x: parts threaded on a rod.
+    /// The solid rotated so that its y axis lies along x.
     pub fn y_to_x(mut self) -> Self {
         let lay = |v: DVec3| DVec3::new(v.y, -v.x, v.z);
         self.positions.iter_mut().for_each(|p| *p = lay(*p));
@@ -157,7 +156,7 @@ impl Solid {
         self
     }
 
-    /// The solid moved by `by`, m.
+    /// The solid translated by `by`, m.
     pub fn translated(mut self, by: DVec3) -> Self {
         self.positions.iter_mut().for_each(|p| *p += by);
         self

@@ -1,4 +1,4 @@
-//! The sidecars of new exhibits, with comments that teach: a mobile of given plates, and one body to begin with.
+//! Sidecars of new exhibits with explanatory comments: a mobile of given plates, and a single disc.
 
 use std::fmt::Write;
 
@@ -13,12 +13,12 @@ use super::texts::{AttractBreath, LabelTexts, attract, in_three_languages, label
 use soffio_exhibit::diagnostic::Diagnostic;
 use soffio_math::DVec3;
 
-/// Head of a chapter of the sidecar.
+/// Heading of a section of the sidecar.
 fn section_heading(title: &str) -> String {
     format!("\n# ---- {title} {}\n", "-".repeat(106_usize.saturating_sub(title.chars().count())))
 }
 
-/// `LargeStem` as a name of the sidecar: `large-stem`.
+/// `LargeStem` as a sidecar name: `large-stem`.
 fn kebab(name: &str) -> String {
     let mut out = String::new();
     for c in name.chars() {
@@ -30,20 +30,20 @@ fn kebab(name: &str) -> String {
     out
 }
 
-/// What every sidecar begins with.
+/// Beginning of every new sidecar.
 pub(super) fn header(id: &str, about: &str) -> String {
     format!(
         "# {about}\n\
          # `soffio check` with this folder says what is wrong in this file, where, and what to do; `soffio explain` prints each\n\
-         # value with its origin; `soffio schema exhibit` lists every key that may stand here. Numbers are SI (m, kg, s); a text\n\
+         # value with its origin; `soffio schema exhibit` lists every key. Numbers are SI (m, kg, s); a text\n\
          # may carry a unit: \"12 mm\", \"35 deg\", \"85 g\".\n\
          schema = \"exhibit/1\"\nmodel = \"{id}.glb\"\nid = \"{id}\"\n\n\
          [scene]\ncamera = \"CamFront\"\n\
-         # Loudness beside the other exhibits: `soffio loudness --write` finds it.\nlevel = \"0 dB\"\n"
+         # Level of all sounds: `soffio loudness --write` makes exhibits equally loud.\nlevel = \"0 dB\"\n"
     )
 }
 
-/// The wires of a piece; `body` as none stands still.
+/// The wire tables of a piece; fixed ones have no `body`.
 fn wires(out: &mut String, piece: &Piece, still: bool) {
     for bend in &piece.wires {
         let _ = write!(out, "\n[[wire]]\nname = \"{}\"\n", kebab(bend.name));
@@ -58,7 +58,7 @@ fn wires(out: &mut String, piece: &Piece, still: bool) {
     }
 }
 
-/// The joints of a work whose pieces hang by their first marks: the first on `point` of what stands still.
+/// The joint tables of a mobile whose pieces hang by their first markers, the first at the fixed node `point`.
 fn joints(out: &mut String, mobile: &Mobile, point: &str) {
     let friction = "friction = { coefficient = 0.3, radius = \"0.3 mm\" }\n";
     for (i, (piece, pose)) in mobile.pieces.iter().enumerate() {
@@ -84,11 +84,11 @@ fn joints(out: &mut String, mobile: &Mobile, point: &str) {
     }
 }
 
-/// What a mobile does between visitors.
+/// Idle damping of a mobile.
 const CALM: &str = "# Whoever blows next shall see their own breath, not the swing of the last one: left alone, it comes to rest.\n\
                     [wind.calm]\nafter = \"3 s\"\ntime = \"2.5 s\"\n\n";
 
-/// A collider, a surface for the wind and a sound for a plate.
+/// Collider, wind surface and sound of a plate.
 fn plates(out: &mut String, names: &[&str]) {
     for name in names {
         let _ = write!(out, "\n[[collider]]\nnode = \"{name}\"\nshape = {{ fit = \"plate\" }}\n");
@@ -122,25 +122,28 @@ const CAPTIONS: [(&str, [&str; 3]); 2] = [
 ];
 
 /// A balanced mobile of `outlines`, cut from sheet of `thickness` m.
+///
+/// # Errors
+/// All plates that cannot be cut or paired.
 pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> Result<ExhibitFolder, Vec<Diagnostic>> {
     let given = plate_mobile(id, outlines, thickness, metal)?;
     let mobile = &given.mobile;
     let about = format!(
-        "A mobile of {} plates that ring in pairs. `soffio new` has bent its wires so that it hangs level; change a plate,\n\
-         # and the balance goes: make it anew rather than by hand.\n#",
+        "A mobile of {} plates that ring in pairs. `soffio new` has bent its wires so that it hangs level. A change of a\n\
+         # plate destroys the balance: create the mobile again instead.\n#",
         given.plates.len()
     );
     let mut out = header(id, &about);
     out.push_str(&section_heading("what things are made of"));
     let _ = write!(
         out,
-        "# Density, friction and sound follow from a material's name; what stands here changes it. Sheet on a hook rings\n\
+        "# Density, friction and sound follow from a material's name; keys here change it. Sheet on a hook rings\n\
          # shorter than the bare metal: the loss factor says how fast a sound fades.\n\n[material.{}]\nloss_factor = 2e-3\n",
         metal.name()
     );
     out.push_str(&section_heading("bodies"));
     out.push_str(
-        "# Each moves as one, with what hangs below its node in the model. Its mass is its volume times the density.\n",
+        "# Each moves as one with the nodes below it in the model. Its mass is its volume times the density.\n",
     );
     for (piece, _) in &mobile.pieces {
         let plate = given.plates.iter().find(|plate| plate.node == piece.name);
@@ -149,20 +152,20 @@ pub fn mobile(id: &str, outlines: &[Outline], thickness: f64, metal: Metal) -> R
         let _ = write!(out, "\n{note}[[body]]\nnode = \"{}\"\nmaterial = \"{material}\"\n", piece.name);
     }
     out.push_str(&section_heading("wires"));
-    out.push_str("# Drawn through the points of the model whose names begin so; they weigh, and feel the wind.\n");
+    out.push_str("# Drawn through the model's nodes whose names begin so. They have mass and feel the wind.\n");
     wires(&mut out, &mobile.stand, true);
     mobile.pieces.iter().for_each(|(piece, _)| wires(&mut out, piece, false));
     out.push_str(&section_heading("joints"));
-    out.push_str("# Loops in loops: two points that stay together. What rubs there brings a turning piece to rest.\n");
+    out.push_str("# Loops in loops: two points that coincide. Their friction brings a rotating piece to rest.\n");
     joints(&mut out, mobile, "CeilingPoint");
-    out.push_str(&section_heading("what can hit, and what feels the wind"));
+    out.push_str(&section_heading("collisions, wind and sound"));
     let names: Vec<&str> = given.plates.iter().map(|plate| plate.node).collect();
     plates(&mut out, &names);
     let gain = metal.gain(thickness);
     if gain > 1.0 {
         let _ = write!(
             out,
-            "# Sheet so heavy hardly stirs in a breath: as if it were so many times stronger.\n[wind.breath]\ngain = {gain:?}\n\n"
+            "# A breath hardly moves such heavy sheet: this multiplies its force.\n[wind.breath]\ngain = {gain:?}\n\n"
         );
     }
     out.push_str(CALM);
@@ -210,7 +213,7 @@ fn mobile_words(count: usize) -> Vec<LabelTexts> {
     )
 }
 
-/// One disc on a stem: the least that swings in a breath.
+/// One disc on a stem: the simplest exhibit that swings in a breath.
 pub fn empty(id: &str) -> ExhibitFolder {
     let mut scene = Scene::default();
     let red = scene.finish(&Finish { name: "Red paint", color: [0.55, 0.018, 0.012], metallic: 0.0, roughness: 0.40 });
@@ -219,26 +222,26 @@ pub fn empty(id: &str) -> ExhibitFolder {
     let disc = disc(["Disc", "DiscHook", "DiscStem"], (120.0 * MM, 1.0 * MM), 90.0 * MM, (ALUMINIUM, red));
     let target = hook - 0.08 * DVec3::Y;
     let stand = ceiling(iron);
-    let mut out = header(id, "One disc on a hook: the least that swings in a breath. Add yours.");
+    let mut out = header(id, "One disc on a hook: the simplest exhibit. Add your own bodies.");
     out.push_str(&section_heading("bodies"));
     out.push_str(
-        "# A body is a node of the model (Blender: an object) that moves as one, with what hangs below it. A node that is\n\
-         # no body stands still. `soffio import your-model.glb` writes such a file for a model of yours.\n\n\
+        "# A body is a node of the model (Blender: an object) that moves as one with the nodes below it. A node that is\n\
+         # no body is fixed. `soffio import your-model.glb` writes such a file for your own model.\n\n\
          [[body]]\nnode = \"Disc\"\nmaterial = \"aluminium\"\n",
     );
     out.push_str(&section_heading("wires"));
-    out.push_str("# Drawn through the points of the model whose names begin so.\n");
+    out.push_str("# Drawn through the model's nodes whose names begin so.\n");
     wires(&mut out, &stand, true);
     wires(&mut out, &disc, false);
     out.push_str(&section_heading("joints"));
     out.push_str(
-        "# A nail holds a point of a body to a node that stands still. Other kinds: hinge, point-to-point, spring, gear, …;\n\
-         # `soffio schema exhibit` has them all.\n",
+        "# A nail holds a point of a body at a fixed node. Other kinds: hinge, point-to-point, spring, gear, …;\n\
+         # `soffio schema exhibit` lists all.\n",
     );
     let mobile =
         Mobile { pieces: vec![(disc.clone(), soffio_math::Pose { position: hook, ..Default::default() })], stand };
     joints(&mut out, &mobile, "CeilingPoint");
-    out.push_str(&section_heading("what can hit, and what feels the wind"));
+    out.push_str(&section_heading("collisions, wind and sound"));
     plates(&mut out, &["Disc"]);
     out.push_str(&attract(&[AttractBreath { at: 5.0, strength: 0.35, aim: [0.5, 0.6] }]));
     out.push('\n');

@@ -1,6 +1,6 @@
-//! Stock that several works are made of: rods, slabs, rings, toothed wheels, a gallows to hang things on, finishes.
+//! Standard parts of several exhibits: rods, slabs, rings, gear wheels, a stand, a ceiling hook, finishes.
 //!
-//! Lengths in metres; shapes lie about the origin, rods and rings along y, slabs and wheels in the plane z = 0.
+//! Lengths in metres. Shapes are centred at the origin: rods and rings along y, slabs and wheels in the plane z = 0.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
@@ -9,40 +9,40 @@ use super::outline::{Polygon, open_spline};
 use super::piece::{BentWire, Part, Piece};
 use super::solid::{Solid, extrude, revolve, revolve_ring};
 
-/// m.
+/// A millimetre, m.
 pub const MM: f64 = 1e-3;
-/// Corners of a round part.
+/// Segments of a circle.
 pub const ROUND: usize = 48;
-/// Densities, kg/m³; the sidecars' materials say the same.
+/// Density of steel, kg/m³, as in the built-in materials.
 pub const STEEL: f64 = 7850.0;
-/// kg/m³.
+/// Density of aluminium, kg/m³.
 pub const ALUMINIUM: f64 = 2700.0;
-/// kg/m³.
+/// Density of brass, kg/m³.
 pub const BRASS: f64 = 8500.0;
-/// kg/m³.
+/// Density of lead, kg/m³.
 pub const LEAD: f64 = 11_300.0;
-/// kg/m³.
+/// Density of copper, kg/m³.
 pub const COPPER: f64 = 8900.0;
-/// Of parts that stand still or whose weight the loader alone needs.
+/// Density of wood, kg/m³, for fixed parts and parts whose mass only the loader needs.
 pub const WOOD: f64 = 720.0;
 
-/// Finishes that all works share.
+/// Indices of the finishes that all exhibits share.
 pub struct Finishes {
-    /// Index in the scene.
+    /// Black paint.
     pub black: usize,
-    /// Index in the scene.
+    /// Red paint.
     pub red: usize,
-    /// Index in the scene.
+    /// White paint.
     pub white: usize,
-    /// Index in the scene.
+    /// Blue paint.
     pub blue: usize,
-    /// Index in the scene.
+    /// Oiled beech.
     pub wood: usize,
-    /// Index in the scene.
+    /// Brushed steel.
     pub steel: usize,
-    /// Index in the scene.
+    /// Brass.
     pub brass: usize,
-    /// Index in the scene.
+    /// Lead.
     pub lead: usize,
 }
 
@@ -84,13 +84,13 @@ pub fn slab(length: f64, width: f64, thickness: f64) -> Solid {
     extrude(&outline, &[], thickness, 0.15 * thickness)
 }
 
-/// A spur wheel with straight-sided teeth: `module` is twice the pitch radius over the number of teeth. A tooth's middle
-/// lies at the angle `phase`.
+/// A spur gear with straight-sided teeth: `module` is twice the pitch radius over the number of teeth. The middle of a
+/// tooth is at the angle `phase`, rad.
 pub fn spur_gear(teeth: usize, module: f64, thickness: f64, phase: f64, holes: &[Polygon]) -> Solid {
     let pitch = 0.5 * module * teeth as f64;
     let (tip, root) = (pitch + module, pitch - 1.25 * module);
     let step = 2.0 * PI / teeth as f64;
-    // Half a tooth on the pitch circle, less some play; narrower at the tip, wider at the root.
+    // Half a tooth on the pitch circle, minus some backlash; narrower at the tip, wider at the root.
     let corners = [(root, -0.36), (tip, -0.13), (tip, 0.13), (root, 0.36)];
     let outline: Polygon = (0..teeth)
         .flat_map(|k| corners.map(|(r, share)| (r, phase + step * (k as f64 + share))))
@@ -99,40 +99,41 @@ pub fn spur_gear(teeth: usize, module: f64, thickness: f64, phase: f64, holes: &
     extrude(&outline, holes, thickness, 0.3 * MM)
 }
 
-/// Where the middle of a tooth must lie on a wheel that meshes with another along the direction `toward` (rad, from the
-/// other's centre), so that a tooth of one meets a gap of the other.
+/// Phase of a wheel that meshes with another in the direction `toward` (rad, from the other's centre), so that its
+/// teeth meet the gaps of the other.
 pub fn meshing_phase(teeth: usize, other_teeth: usize, other_phase: f64, toward: f64) -> f64 {
     let turn = 2.0 * PI;
     let share = 0.5 - (toward - other_phase) * other_teeth as f64 / turn;
     toward + PI - share * turn / teeth as f64
 }
 
-/// Turns what lies along y to lie along z.
+/// Rotation from the y axis to the z axis.
 pub fn y_to_z() -> DQuat {
     rotation(0.5 * PI * DVec3::X)
 }
 
-/// A part with its frame at `position`, turned.
+/// A part with its frame at `position` and `rotation`.
 pub fn part(name: &'static str, solid: Solid, position: DVec3, rotation: DQuat, density: f64, finish: usize) -> Part {
     Part { name, solid, place: Pose { rotation, position }, density, finish }
 }
 
-/// A board of a fan: its long side leads outwards at `angle` about z, its face leans by `pitch` from facing z.
+/// A vane of a fan: its long side points outwards at `angle` about z, its face is pitched by `pitch` from facing z;
+/// `stuff` is density and finish.
 pub fn vane(name: &'static str, size: [f64; 3], radius: f64, angle: f64, pitch: f64, stuff: (f64, usize)) -> Part {
     let turn = rotation(angle * DVec3::Z);
     let lean = rotation(pitch * DVec3::X);
     part(name, slab(size[0], size[1], size[2]), turn * (radius * DVec3::X), turn * lean, stuff.0, stuff.1)
 }
 
-/// A foot with a bent rod that ends at `top`: the rod stands at `post` (x, z) and bows over. The sidecar draws the rod
-/// through `StandRod.*`, 3 mm in radius.
+/// A foot with a bent rod that ends at `top`; the rod rises at `post` (x, z). The sidecar draws the rod through
+/// `StandRod.*`, 3 mm in radius.
 pub fn bent_rod_stand(top: DVec3, post: DVec2, finish: usize) -> Piece {
     let foot = [(0.0, 0.0), (58.0, 0.0), (60.0, 2.0), (60.0, 7.0), (57.0, 9.0), (8.0, 12.0), (0.0, 12.0)];
     let foot = revolve(&foot.map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let at = |height: f64, share: f64| {
         DVec3::new(post.x, 0.0, post.y) * (1.0 - share) + DVec3::new(top.x * share, height, top.z * share)
     };
-    // The spline asks for knots about equally far apart: only the crook is one.
+    // The spline needs knots about equally far apart: only the bend is one.
     let crook = [at(top.y - 36.0 * MM, 0.0), at(top.y - 12.0 * MM, 0.0), at(top.y + 12.0 * MM, 0.35), top];
     let rod = std::iter::once(at(8.0 * MM, 0.0)).chain(open_spline(&crook, 8)).collect();
     Piece {
@@ -143,8 +144,8 @@ pub fn bent_rod_stand(top: DVec3, post: DVec2, finish: usize) -> Piece {
     }
 }
 
-/// A rod from the ceiling whose hook's foot is at the origin. The sidecar draws the hook through `CeilingHook.*`, 1.5 mm in
-/// radius.
+/// A rod from the ceiling with a hook whose lowest point is the origin. The sidecar draws the hook through
+/// `CeilingHook.*`, 1.5 mm in radius.
 pub fn ceiling(finish: usize) -> Piece {
     let rose =
         [(0.0, 0.8), (30.0, 0.8), (30.0, 0.806), (26.0, 0.812), (0.0, 0.812)].map(|(r, y)| DVec2::new(r * MM, y));
@@ -163,7 +164,7 @@ pub fn ceiling(finish: usize) -> Piece {
     }
 }
 
-/// Writes pieces and a camera that looks from `eye` at `target`.
+/// The GLB file of some pieces, with a camera at `eye` that looks at `target`.
 pub fn write(mut scene: Scene, name: &str, pieces: &[(Piece, DVec3)], eye: DVec3, target: DVec3) -> Vec<u8> {
     for (piece, position) in pieces {
         piece.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: *position });

@@ -1,10 +1,10 @@
-//! New exhibits that begin as a copy of a shipped one: its model and its sidecar under another id.
+//! New exhibits as copies of a shipped one: its model and its sidecar under another id.
 
 use toml_edit::{DocumentMut, value};
 
 use super::ExhibitFolder;
 
-/// A shipped exhibit that can be begun from.
+/// A shipped exhibit that serves as a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Template {
     /// The pendulum of a shelf clock.
@@ -27,14 +27,15 @@ impl Template {
         }
     }
 
-    /// The copy. Its sidecar keeps the comments that explain it; level, joints and words are those of the original.
+    /// A copy with another id. Its sidecar keeps the explanatory comments; level, joints and texts are those of the
+    /// original.
     ///
     /// # Errors
-    /// Only where the shipped sidecar is not TOML.
+    /// Where the shipped sidecar is not TOML.
     pub fn copy(self, id: &str) -> Result<ExhibitFolder, toml_edit::TomlError> {
         let (sidecar, model) = self.sources();
         let mut document: DocumentMut = sidecar.parse()?;
-        // The first comment tells where the shipped model comes from.
+        // The first comment describes the shipped model.
         let about = "# Begun as a copy of a shipped exhibit. REPLACE its words ([label], [credit]) by yours; `soffio check`\n\
              # with this folder says what is wrong in this file, where, and what to do.\n";
         if let Some(mut key) = document.key_mut("schema") {

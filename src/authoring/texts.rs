@@ -1,19 +1,19 @@
-//! The parts of a new sidecar that are words: attract script, labels in three languages, credit. Each text asks to be replaced.
+//! Texts of a new sidecar: attract script, labels in three languages, credit. Each text asks to be replaced.
 
 use std::fmt::Write;
 
-/// Words of one language.
+/// Label texts of one language.
 #[derive(Clone, Debug, Default)]
 pub struct LabelTexts {
     /// Language code.
     pub code: &'static str,
-    /// Title of the work.
+    /// Title of the exhibit.
     pub title: String,
     /// Maker.
     pub maker: String,
     /// Wall text.
     pub body: String,
-    /// What is to be seen.
+    /// Description for visitors who cannot see it.
     pub alt: String,
     /// Captions by key.
     pub captions: Vec<(&'static str, String)>,
@@ -30,19 +30,19 @@ pub struct AttractBreath {
     pub aim: [f64; 2],
 }
 
-/// A TOML string.
+/// A text as a TOML string.
 pub fn quoted(text: &str) -> String {
     toml_edit::Value::from(text).to_string()
 }
 
-/// What happens when nobody is there: the invitation, and breaths. What hangs comes to rest by itself, and is not put back.
+/// The attract script: the invitation, and breaths. A hanging exhibit comes to rest by itself and needs no reset.
 pub fn attract(breaths: &[AttractBreath]) -> String {
     let end = breaths.last().map_or(20.0, |breath| breath.at + 19.0);
     let mut out = format!(
         "# ---- when nobody is there ------------------------------------------------------------------------------------\n\
-         # Steps in the order of time, seconds since the round began. A step shows a text, blows, looks\n\
-         # round the work (look = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or puts everything back to where it\n\
-         # started (reset = true): that is a jump, for works whose parts break or roll away.\n\
+         # Steps in increasing time, seconds since the script began. A step shows a text, blows, orbits the\n\
+         # camera (look = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or resets the exhibit to its\n\
+         # start (reset = true): that is a jump, for exhibits whose parts break or roll away.\n\
          # strength: 0.22 is a gentle breath, 1 the hardest. aim: (0,0) is the picture's top left, (1,1) its bottom right.\n\n\
          [attract]\nduration = {end}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n"
     );
@@ -55,11 +55,11 @@ pub fn attract(breaths: &[AttractBreath]) -> String {
     out
 }
 
-/// Labels and credit.
+/// The label and credit tables.
 pub fn labels(languages: &[LabelTexts]) -> String {
     let mut out = "# ---- words ---------------------------------------------------------------------------------------------------\n\
-                   # REPLACE these texts by yours; `soffio labels ID --csv texts.csv` makes a table of them for translators. `alt`\n\
-                   # says what is to be seen to those who cannot see it; `caption` is written when a sound is heard.\n\n\
+                   # REPLACE these texts; `soffio labels ID --csv texts.csv` makes a table of them for translators. `alt`\n\
+                   # describes the exhibit to visitors who cannot see it; `caption` is shown when a sound plays.\n\n\
                    [label]\ndefault_language = \"en\"\n"
         .to_owned();
     for LabelTexts { code, title, maker, body, alt, captions } in languages {
@@ -85,7 +85,7 @@ pub fn labels(languages: &[LabelTexts]) -> String {
     out
 }
 
-/// English, Korean and Italian words of a new work: title, wall text, what is to be seen, and captions by key.
+/// English, Korean and Italian texts of a new exhibit: title, wall text, description, and captions by key.
 pub fn in_three_languages(
     titles: [&str; 3],
     bodies: [&str; 3],

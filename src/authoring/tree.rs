@@ -1,52 +1,52 @@
-//! Mobiles of any shape: boughs that carry plates and boughs, bent from the lowest upwards.
+//! Mobiles as binary trees: branches that carry plates and branches, balanced from the lowest upwards.
 //!
-//! Whoever builds one hangs the lowest bough first, finds where it balances, and hangs it on the next: so does [`assemble_tree`].
-//! Each bough's right end droops as far as puts the centre of what it carries `depth` below its loop, and with that
-//! its tilt has the period 2π √(I/(M g depth)), I about the loop.
+//! As in building a real mobile, the lowest branch comes first: [`assemble_tree`] finds where it balances and hangs it
+//! on the next. Each branch's right end droops so far that the centre of its loads is `depth` below its loop. Its tilt
+//! then has the period 2π √(I/(M g depth)), I about the loop.
 
 use soffio_math::{DVec3, Pose};
 
 use super::mobile::{Branch, branch_of_depth};
 use super::piece::{Part, Piece, named, yaw};
 
-/// What hangs from a point.
+/// A node of the tree.
 pub enum TreeNode {
-    /// A plate on its stem, by its first mark; turned about the vertical, rad, against the world.
+    /// A plate on its stem, hanging by its first marker; rotated about the vertical, rad, relative to the world.
     Plate(Piece, f64),
-    /// A bough with what it carries.
+    /// A branch with its loads.
     BranchNode(Box<BranchNode>),
-    /// A part that is fixed to the wire's end, placed from there.
+    /// A part fixed to the wire's end, relative to it.
     Fixed(Part),
 }
 
 impl TreeNode {
-    /// A bough.
+    /// A branch node.
     pub fn branch(branch: BranchNode) -> Self {
         Self::BranchNode(Box::new(branch))
     }
 }
 
-/// A wire with a loop where it balances, and something at each end.
+/// A wire with a loop at its balance point and a load at each end.
 pub struct BranchNode {
-    /// Its node; the loop is `<name>Loop`, the wire `<name>Wire`, the ends `<name>Right` and `<name>Left`.
+    /// Name of its node; the loop is `<name>Loop`, the wire `<name>Wire`, the ends `<name>Right` and `<name>Left`.
     pub name: String,
-    /// Of the wire, m.
+    /// Radius of the wire, m.
     pub radius: f64,
-    /// Between the two loads, m.
+    /// Distance between the two loads, m.
     pub chord: f64,
-    /// How far the left end rises over the loop's foot, m; it droops where this is negative.
+    /// Rise of the left end over the loop's foot, m; it droops where this is negative.
     pub rise: f64,
-    /// Of the centre of all it carries below the loop, m.
+    /// Depth of the centre of all loads below the loop, m.
     pub depth: f64,
-    /// Where its right end points, rad about the vertical against the world.
+    /// Direction of its right end, rad about the vertical relative to the world.
     pub turn: f64,
-    /// What hangs at the right and at the left end.
+    /// Loads at the right and at the left end.
     pub ends: [TreeNode; 2],
 }
 
-/// Straight pieces of each arm: an arc to the eye.
+/// Segments of each arm.
 const STEPS: usize = 12;
-/// Radius of loops and eyes over that of the wire, and the least, m.
+/// Radius of loops and eyes over that of the wire, and the least radius, m.
 const EYE: (f64, f64) = (2.7, 1.7e-3);
 
 struct Bent {
@@ -56,7 +56,7 @@ struct Bent {
     hanging: Vec<(&'static str, Bent)>,
 }
 
-/// What hangs, bent and weighed, or what is fixed.
+/// A node with its bent wires and masses, or the part that is fixed.
 fn bend(hanging: TreeNode) -> Result<Bent, Part> {
     match hanging {
         TreeNode::Plate(piece, turn) => Ok(Bent { mass: piece.mass().mass, piece, turn, hanging: Vec::new() }),
@@ -97,7 +97,7 @@ fn place(bent: Bent, position: DVec3, pieces: &mut Vec<(Piece, Pose)>) {
     }
 }
 
-/// All pieces of a mobile that hangs at `hook`, and where they are at rest; what carries comes before what hangs.
+/// All pieces of a mobile that hangs at `hook`, in their equilibrium poses; a piece comes before its loads.
 pub fn assemble_tree(hook: DVec3, top: TreeNode) -> Vec<(Piece, Pose)> {
     let mut pieces = Vec::new();
     if let Ok(bent) = bend(top) {

@@ -91,13 +91,13 @@ pub struct Levelled {
 ///
 /// # Errors
 /// Where a timbre is invalid.
-pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, room: Option<&ReverbSpec>) -> Result<Levelled, String> {
+pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, reverb: Option<&ReverbSpec>) -> Result<Levelled, String> {
     let sounds = scene(exhibit, settings)?;
     let hear = |raised: f64| {
         let mut instruments = exhibit.instruments.clone();
         instruments.iter_mut().for_each(|instrument| instrument.gain *= from_decibels(raised));
         let mut synth = Synth::new(SAMPLE_RATE, &instruments, settings.seed).map_err(|e| e.to_string())?;
-        synth.set_reverb(room);
+        synth.set_reverb(reverb);
         let mut out = vec![0.0; 2 * SAMPLES_PER_STEP as usize * sounds.len()];
         for (step, block) in sounds.iter().zip(out.chunks_mut(2 * SAMPLES_PER_STEP as usize)) {
             step.iter().for_each(|sound| synth.command(*sound));

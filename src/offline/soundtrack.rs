@@ -52,13 +52,13 @@ impl Soundtrack {
     pub fn new(
         exhibit: &Exhibit,
         seed: u64,
-        room: Option<&ReverbSpec>,
+        reverb: Option<&ReverbSpec>,
         dry: bool,
         path: Option<&Path>,
     ) -> Result<Self, String> {
         let mut synth = Synth::new(SAMPLE_RATE, &exhibit.instruments, seed).map_err(|e| e.to_string())?;
         synth.set_dry(dry);
-        synth.set_reverb(room);
+        synth.set_reverb(reverb);
         let file = path.map(AtomicWav::create).transpose()?;
         Ok(Self {
             early: synth.latency() * usize::from(CHANNELS),

@@ -61,10 +61,10 @@ pub fn its_model_reads_back_as_it_was_written(id: &str) {
 
 pub fn what_holds_it_stands_in_its_mujoco_model_or_is_named_as_left_out(id: &str) {
     let exhibit = load(id);
-    let mjcf::Exported { text, left_out } = mjcf::export(&exhibit);
+    let mjcf::Exported { text, omitted } = mjcf::export(&exhibit);
     let output = |name: &str| {
         let escaped = name.replace('&', "&amp;");
-        text.contains(&escaped) || left_out.iter().any(|line| line.starts_with(&format!("{name}:")))
+        text.contains(&escaped) || omitted.iter().any(|line| line.starts_with(&format!("{name}:")))
     };
     for constraint in &exhibit.constraints {
         assert!(output(&constraint.name) || output(constraint.group()), "{id}: {}", constraint.name);

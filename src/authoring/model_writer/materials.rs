@@ -1,4 +1,4 @@
-//! Appearances as glTF materials: what differs from the standard's defaults, with the extensions that say it.
+//! Writes materials: values that differ from glTF's defaults, with their extensions.
 
 use std::io::Cursor;
 
@@ -10,9 +10,9 @@ use soffio_exhibit::model::{AlphaMode, Appearance, Levels, Model, Sampler, Textu
 use soffio_math::{atan2, sqrt};
 
 impl Writer {
-    /// All materials, with the images that they use.
+    /// Writes all materials, with the images that they use.
     pub(super) fn materials(&mut self, model: &Model) -> Vec<Value> {
-        // Images are written when they are first used, each once.
+        // Images are written once, when they are first used.
         let mut images = vec![None; model.images.len()];
         model.materials.iter().map(|look| self.material(model, look, &mut images)).collect()
     }
@@ -81,7 +81,7 @@ impl Writer {
                 let image = &model.images[at.image];
                 let mut png = Cursor::new(Vec::new());
                 let (rgba, color) = (&image.rgba, image::ExtendedColorType::Rgba8);
-                // Only an image without pixels cannot be written, and one without pixels is not seen.
+                // Only an image without pixels cannot be written.
                 image::write_buffer_with_format(&mut png, rgba, image.width, image.height, color, ImageFormat::Png)
                     .ok()?;
                 let view = self.view(&png.into_inner());
@@ -104,7 +104,7 @@ impl Writer {
     }
 }
 
-/// Index of an equal value, added where there is none.
+/// Index of an equal value in the list, which is added if missing.
 fn one_of(list: &mut Vec<Value>, value: Value) -> usize {
     list.iter().position(|other| *other == value).unwrap_or_else(|| {
         list.push(value);
@@ -134,12 +134,12 @@ fn sampler(sampler: Sampler) -> Value {
 fn moved([u, v]: [[f32; 3]; 2]) -> Value {
     let [[a, b, x], [c, d, y]] = [u, v].map(|row| row.map(f64::from));
     let (width, height) = (sqrt(a * a + c * c), sqrt(b * b + d * d));
-    // A mirrored picture has its sign in the height.
+    // A mirrored transform has a negative height.
     let height = if a * d - b * c < 0.0 { -height } else { height };
     json!({ "offset": [x, y], "rotation": atan2(-c, a), "scale": [width, height] })
 }
 
-/// Textures of an extension, by their names there; of normals with their scale.
+/// Textures of an extension, by their names there; normal maps with their scale.
 fn details(look: &Appearance, extension: &str) -> Vec<(&'static str, TextureUse, Option<f32>)> {
     let of = &look.details;
     let named: Vec<(&'static str, Option<TextureUse>)> = match extension {
@@ -157,11 +157,11 @@ fn details(look: &Appearance, extension: &str) -> Vec<(&'static str, TextureUse,
     named.into_iter().filter_map(|(key, at)| Some((key, at?, None))).chain(normal).collect()
 }
 
-/// What the core of glTF has no words for.
+/// The extensions of a material.
 fn extensions(look: &Appearance, strength: f32) -> Vec<(&'static str, Value)> {
     let mut out = Vec::new();
     if look.unlit {
-        // Says all by itself: it goes with no other.
+        // This extension excludes all others.
         return vec![("KHR_materials_unlit", json!({}))];
     }
     let plain = Appearance::default();

@@ -1,8 +1,8 @@
-//! [`Model`] to a binary glTF 2.0 file: the inverse of [`soffio_exhibit::model::import`].
+//! Writes a [`Model`] as a binary glTF 2.0 file: the inverse of [`soffio_exhibit::model::import`].
 //!
-//! Written is what is drawn: visible nodes that carry something, or lead to what does, or move; meshes as triangles of
-//! 32-bit floats, images as PNG. Writing is deterministic: the same model gives the same bytes. Layout as in the glTF
-//! 2.0 specification, section 4.4: header, JSON padded with spaces, binary chunk padded with zeros.
+//! The file contains what is drawn: visible nodes with content, their ancestors, and animated nodes; meshes as
+//! triangles of 32-bit floats; images as PNG. The output is deterministic. Layout as in the glTF 2.0 specification,
+//! section 4.4: header, JSON padded with spaces, binary chunk padded with zeros.
 
 use serde_json::{Value, json};
 
@@ -15,10 +15,10 @@ const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
-/// A matrix differs from the product of its parts by no more than this, relative to its largest number.
+/// Largest difference of a matrix from the product of its parts, relative to its largest number.
 const SHEAR: f64 = 1e-6;
 
-/// The model as the bytes of a `.glb`; `copyright` goes where viewers show it.
+/// The model as the bytes of a `.glb`; `copyright` is shown by viewers.
 pub fn write(model: &Model, copyright: &str) -> Vec<u8> {
     let mut writer = Writer::default();
     let materials = writer.materials(model);
@@ -67,7 +67,7 @@ pub fn write(model: &Model, copyright: &str) -> Vec<u8> {
     container(document.to_string().into_bytes(), &binary)
 }
 
-/// A document and its buffer (whole words long; may be empty) as one binary file: glTF 2.0, section 4.4.
+/// A JSON document and its buffer (of whole words; may be empty) as one binary file: glTF 2.0, section 4.4.
 pub fn container(mut text: Vec<u8>, binary: &[u8]) -> Vec<u8> {
     text.resize(text.len().next_multiple_of(4), b' ');
     let length = 12 + 8 + text.len() + if binary.is_empty() { 0 } else { 8 + binary.len() };
@@ -91,7 +91,7 @@ pub fn container(mut text: Vec<u8>, binary: &[u8]) -> Vec<u8> {
 struct Writer {
     nodes: Vec<Value>,
     meshes: Vec<Value>,
-    /// Where each mesh of the model went.
+    /// Index of each mesh in the file.
     written: Vec<Option<usize>>,
     accessors: Vec<Value>,
     views: Vec<Value>,
@@ -104,7 +104,7 @@ struct Writer {
 }
 
 impl Writer {
-    /// Writes the nodes; where each of the model's went.
+    /// Writes the nodes; returns the index of each in the file.
     fn nodes(&mut self, model: &Model) -> Vec<Option<usize>> {
         let mut wanted = vec![false; model.nodes.len()];
         let moved = model.animations.iter().flat_map(|a| &a.channels).map(|channel| channel.node);
@@ -147,7 +147,7 @@ impl Writer {
         place
     }
 
-    /// Writes a mesh where it was not yet; `None` where nothing of it is drawn.
+    /// Writes a mesh once; `None` where it has nothing to draw.
     fn mesh(&mut self, model: &Model, index: usize) -> Option<usize> {
         if self.written[index].is_none() {
             let mesh = &model.meshes[index];
@@ -217,7 +217,7 @@ impl Writer {
                         let values: Vec<[f32; 3]> = values.iter().map(|v| v.as_vec3().to_array()).collect();
                         ("scale", self.vectors(&values, "VEC3", None))
                     }
-                    // Meshes are written as they stand.
+                    // Meshes are written in their rest shape.
                     Track::Weights(_) => continue,
                 };
                 let times: Vec<[f32; 1]> = channel.times.iter().map(|t| [*t as f32]).collect();
@@ -255,7 +255,7 @@ impl Writer {
         self.accessors.len() - 1
     }
 
-    /// Bytes in the binary chunk, aligned as accessors of four bytes need.
+    /// Adds bytes to the binary chunk, aligned for accessors of four bytes.
     fn view(&mut self, bytes: &[u8]) -> usize {
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         self.views.push(json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() }));
@@ -264,7 +264,7 @@ impl Writer {
     }
 }
 
-/// Writes a transform by its parts, which what moves must have; a sheared one as its matrix.
+/// Writes a transform by its parts, which animated nodes require; a sheared one as its matrix.
 fn transform(out: &mut Value, local: &DMat4, moves: bool) {
     let (scale, rotation, translation) = local.to_scale_rotation_translation();
     let again = DMat4::from_scale_rotation_translation(scale, rotation, translation);
@@ -308,7 +308,7 @@ fn light(light: &soffio_exhibit::model::Light) -> Value {
     out
 }
 
-/// At length 1 again after whatever made it; a direction that is none points up.
+/// Normalises a vector; a zero one points up.
 fn unit(v: [f32; 3]) -> [f32; 3] {
     glam::Vec3::from_array(v).normalize_or(glam::Vec3::Y).to_array()
 }

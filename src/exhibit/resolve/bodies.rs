@@ -1,4 +1,4 @@
-//! Bodies: which nodes move as one, and what they weigh.
+//! Resolves bodies: their nodes, mass properties and start states.
 
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Motion};
@@ -14,18 +14,18 @@ use soffio_math::{DMat3, DQuat, DVec3, Pose};
 /// Most moving bodies of an exhibit.
 const MAX_BODIES: usize = 1024;
 
-/// Where a body comes from.
+/// Origin of a body.
 pub(super) enum Declared {
     /// The `[[body]]` of this number.
     Entry(usize),
-    /// The path of a nail.
+    /// The path of a moving nail.
     Path,
 }
 
-/// A body that follows a given motion is moved by nothing, whatever it weighs.
+/// Mass properties of kinematic bodies, whose motion does not depend on them.
 const NOMINAL: MassProperties = MassProperties { mass: 1.0, center: DVec3::ZERO, inertia: DMat3::IDENTITY };
 
-/// A point for the reader: micrometres are enough.
+/// A point for messages, to the micrometre.
 pub(super) fn meters(p: DVec3) -> String {
     // Adding zero turns −0 into 0.
     let [x, y, z] = p.to_array().map(|v| (v * 1e6).round() / 1e6 + 0.0);
@@ -33,7 +33,7 @@ pub(super) fn meters(p: DVec3) -> String {
 }
 
 impl Context<'_> {
-    /// Finds the moving bodies and whom each node belongs to.
+    /// Finds the moving bodies, and the body that each node belongs to.
     pub(super) fn declare_bodies(&mut self) -> Vec<Declared> {
         let sidecar = self.sidecar;
         let mut declared = Vec::new();
@@ -81,7 +81,7 @@ impl Context<'_> {
             declared.push(Declared::Entry(entry));
         }
         for (name, path) in sidecar.constraint.paths() {
-            // The loader has put these nodes at the end of the model, one for each path.
+            // The loader has added a node for each path.
             let Some(&node) = self.nodes_named(&path_node(name)).first() else { continue };
             self.body_nodes.push(node);
             let place = format!("{}/to/path", self.place(name));
@@ -161,7 +161,7 @@ impl Context<'_> {
         bodies
     }
 
-    /// The body of a path: a point that moves.
+    /// The body of a path: a moving point.
     fn path_body(&mut self, index: usize) -> Body {
         let material = self.material("steel", "/-").unwrap_or(0);
         Body {
@@ -177,7 +177,7 @@ impl Context<'_> {
         }
     }
 
-    /// A number that must not be below zero.
+    /// Reports a negative number, and returns 0 then.
     pub(super) fn not_negative(&mut self, value: f64, at: &str) -> f64 {
         if value < 0.0 {
             let problem = Diagnostic::new(codes::RANGE, format!("{value} is below zero"));
@@ -186,7 +186,7 @@ impl Context<'_> {
         value.max(0.0)
     }
 
-    /// A number that must be above zero.
+    /// Reports a number that is not above zero.
     pub(super) fn positive(&mut self, value: f64, at: &str) -> f64 {
         if value > 0.0 {
             return value;
@@ -244,17 +244,17 @@ impl Context<'_> {
             &format!("{at}/inertia"),
             derived,
         );
-        // A mesh that could not be weighed has been reported; that nothing is left of the mass is no second problem.
+        // A mesh without a mass was reported already; the missing mass is no second problem.
         if geometry_good {
             self.check_mass(&properties, &given.node, at);
         }
         properties
     }
 
-    /// Does a body of these properties exist? Moments of inertia are sums of two of three positive integrals, so
-    /// none is larger than the other two together.
+    /// Checks that such a body is possible: each moment of inertia is at most the sum of the other two, since the three
+    /// are sums of pairs of positive integrals.
     fn check_mass(&mut self, properties: &MassProperties, name: &str, at: &str) {
-        /// Rounding of an inertia typed with four digits (a flat plate has equality).
+        /// Tolerance for an inertia typed with four digits (a flat plate has equality).
         const TYPED: f64 = 1e-3;
         if properties.mass <= 0.0 || !properties.mass.is_finite() {
             let message = format!("body \"{name}\" has no mass");
@@ -342,7 +342,7 @@ impl Context<'_> {
         total
     }
 
-    /// Moments of one node's mesh: the solid it encloses, or the sheet it is.
+    /// Moments of one node's mesh, as a solid or as a sheet.
     fn piece(&mut self, node: usize, density: f64, thickness: Option<f64>, mass_given: bool, at: &str) -> Moments {
         let Some(mesh) = self.node_mesh(node) else { return Moments::default() };
         let name = self.model.nodes[node].name.clone();
@@ -361,7 +361,7 @@ impl Context<'_> {
             return mesh.sheet_moments(thickness, density);
         }
         if mass_given {
-            // The mass is known; the skin says how it is spread. A nominal millimetre gives it some depth.
+            // The mass is given; the surface determines its distribution. A nominal millimetre gives it some depth.
             const NOMINAL: f64 = 1e-3;
             return mesh.sheet_moments(NOMINAL, density);
         }

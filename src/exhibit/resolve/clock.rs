@@ -1,4 +1,4 @@
-//! The hands of a clock.
+//! Resolves the hands of a clock.
 
 use super::super::clock::{Clock, CountedRotation, DIAL_PERIOD, time_of_day};
 use super::super::codes;
@@ -8,7 +8,7 @@ use super::context::Context;
 use soffio_multibody::articulation::{Axis, Constraint};
 
 impl Context<'_> {
-    /// What tells the time, among these constraints; `None` where nothing does, or a problem was reported.
+    /// The clock, from these constraints; `None` where there is none or a problem was reported.
     pub(super) fn clock(&mut self, constraints: &[Constraint]) -> Option<Clock> {
         let sidecar = self.sidecar;
         let given = sidecar.clock.as_ref()?;

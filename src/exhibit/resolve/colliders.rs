@@ -1,4 +1,4 @@
-//! Colliders, and who never collides with whom.
+//! Resolves colliders and excluded pairs.
 
 use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::fit;
@@ -12,7 +12,7 @@ use soffio_multibody::articulation::{Constraint, Limit, LimitKind};
 use soffio_multibody::collision::{Collider, Excluded, Exclusion, Shape};
 
 impl Context<'_> {
-    /// Collision shapes of nodes and of wires.
+    /// Collision shapes of nodes and wires.
     pub(super) fn colliders(&mut self, wires: &[Wire]) -> Vec<Collider> {
         let sidecar = self.sidecar;
         let mut out = Vec::new();
@@ -43,7 +43,7 @@ impl Context<'_> {
         for wire in wires {
             let collides = sidecar.wire.iter().any(|given| given.name == wire.name && given.collide);
             if collides {
-                // The chain's axis stays inside the wire: what hits it hits what one sees.
+                // The simplified axis stays inside the wire, so that impacts agree with the picture.
                 let line = fit::simplify(&wire.points, wire.radius);
                 out.extend(line.windows(2).map(|segment| Collider {
                     body: wire.body,
@@ -60,7 +60,7 @@ impl Context<'_> {
         let place = format!("{at}/shape");
         let frame = self.pose_of(self.owner[node]).matrix().inverse() * self.model.nodes[node].world;
         let axes = DMat3::from_mat4(frame);
-        // Shapes of stated size keep it: the node gives place and direction, not scale.
+        // Shapes of stated size keep it: the node gives position and direction, not scale.
         let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(DVec3::normalize_or_zero);
         let origin = frame.w_axis.truncate();
         match given.shape {
@@ -122,7 +122,7 @@ impl Context<'_> {
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
             let joined =
                 constraints.iter().flat_map(|c| joined_pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
-            // Wheels that mesh with some play.
+            // Gears with backlash.
             let meshed = limits.iter().filter_map(|limit| match limit.kind {
                 LimitKind::Play { terms: [a, b], .. } => {
                     Some((limit.name.as_str(), (a.measure.bodies().0, b.measure.bodies().0)))
@@ -160,7 +160,7 @@ impl Context<'_> {
         }
     }
 
-    /// Bodies that a node's name or `group:NAME` stands for.
+    /// Bodies of a node's name or of `group:NAME`.
     fn group(&mut self, name: &str, at: &str) -> Vec<Option<usize>> {
         let groups = &self.sidecar.collision.groups;
         let Some(group) = name.strip_prefix("group:") else {
@@ -180,7 +180,7 @@ impl Context<'_> {
     }
 }
 
-/// Shapes of the body's frame, evenly round an axis through its origin.
+/// Copies of shapes in the body's frame, evenly around an axis through its origin.
 fn ringed(shapes: &[Shape], axis: DVec3, count: usize) -> Vec<Shape> {
     let turned = |k: usize| {
         let turn = rotation(axis * (2.0 * PI * k as f64 / count as f64));

@@ -1,4 +1,4 @@
-//! What all stages of resolving share.
+//! State that all stages of resolving share.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -13,7 +13,7 @@ use super::super::source::SidecarText;
 use soffio_math::Pose;
 use soffio_multibody::dynamics::KinematicBody;
 
-/// What all stages share.
+/// State that all stages share.
 pub(super) struct Context<'a> {
     pub(super) source: &'a SidecarText,
     pub(super) sidecar: &'a Sidecar,
@@ -28,13 +28,13 @@ pub(super) struct Context<'a> {
     pub(super) body_nodes: Vec<usize>,
     /// Pose of each moving body in the model.
     pub(super) poses: Vec<Pose>,
-    /// Pose of each moving body at the start: that of the model, or another that the sidecar or a path gives.
+    /// Start pose of each moving body: that of the model, of the sidecar, or of a path.
     pub(super) starts: Vec<Pose>,
-    /// Bodies that follow a given motion.
+    /// Kinematic bodies.
     pub(super) drives: Vec<KinematicBody>,
-    /// Moving body, the model's animation that it follows, and whether over and over.
+    /// Kinematic body, index of the animation that it follows, and whether that repeats.
     pub(super) followed: Vec<(usize, usize, bool)>,
-    /// Moving body that each node belongs to.
+    /// Body that each node belongs to.
     pub(super) owner: Vec<Option<usize>>,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Context<'a> {
         self.problems.push(problem);
     }
 
-    /// Notes a value: from the sidecar where it stands there, else from `otherwise`.
+    /// Records a value and its source: the sidecar where it is set there, else `otherwise`.
     pub(super) fn record_origin(&mut self, of: &str, key: &str, value: String, at: &str, otherwise: &str) {
         let given = self.source.value.pointer(at).is_some();
         let file = SIDECAR;

@@ -1,4 +1,4 @@
-//! Materials: the built-in table, what the sidecar changes of it, and pairs that break the combine rule.
+//! Resolves materials: the built-in table, changes of the sidecar, and material pairs.
 
 use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::quantity::Length;

@@ -1,8 +1,8 @@
-//! From sidecar and model to a valid [`Exhibit`]: each stage resolves names to indices and reports what does not hold.
+//! Resolves sidecar and model to a valid [`Exhibit`]: each stage turns names into indices and reports problems.
 //!
-//! A stage never stops at its first problem, and never returns half a value: what cannot be resolved is left out and
-//! an error stands in the report, so that an exhibit comes out only where there is none. Stages in order: materials,
-//! bodies (who belongs to whom), wires, masses, joints, colliders, wind and sound, words.
+//! A stage does not stop at its first problem. Values that cannot be resolved are left out and reported, so an exhibit
+//! is returned only without errors. Stages in order: materials, bodies, wires, masses, joints, colliders, wind and
+//! sound, texts.
 
 mod bodies;
 mod clock;
@@ -40,12 +40,15 @@ use soffio_multibody::procedural::Method;
 
 /// Most bytes of a sidecar.
 const MAX_SIDECAR_BYTES: u64 = 4 << 20;
-/// The version this program reads.
+/// Format version that this program reads.
 const VERSION: &str = "exhibit/1";
-/// Standard gravity, rounded as curators do, m/s².
+/// Default gravity, m/s².
 const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 
-/// Loads and checks the exhibit in `folder`: all problems at once, or a valid exhibit with its warnings.
+/// Loads and validates the exhibit in `folder`.
+///
+/// # Errors
+/// All problems at once.
 pub fn load(folder: &Path) -> Result<Exhibit, Report> {
     let path = folder.join(SIDECAR);
     let bytes = paths::read_limited(&path, MAX_SIDECAR_BYTES).map_err(Report::single)?;
@@ -74,7 +77,10 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
     Ok(Exhibit { warnings: report.diagnostics, ..exhibit })
 }
 
-/// A plain model as an exhibit in which nothing moves.
+/// Loads a plain model as an exhibit in which nothing moves.
+///
+/// # Errors
+/// All problems of the model.
 pub fn load_model(model_path: &Path) -> Result<Exhibit, Report> {
     let Imported { model, warnings } = import(model_path)?;
     let id = model_path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
@@ -83,14 +89,14 @@ pub fn load_model(model_path: &Path) -> Result<Exhibit, Report> {
 }
 
 impl Exhibit {
-    /// A model alone as an exhibit in which nothing moves, seen through its first camera.
+    /// An exhibit of a model alone, in which nothing moves, seen through its first camera.
     pub fn from_model(model: Model) -> Self {
         let camera_node = model.nodes.iter().position(|node| node.camera.is_some());
         Self { camera_node, ..empty(model, PathBuf::new()) }
     }
 }
 
-/// An exhibit of nothing but its model.
+/// An exhibit of nothing but a model.
 fn empty(model: Model, folder: PathBuf) -> Exhibit {
     Exhibit {
         id: String::new(),
@@ -133,7 +139,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
     }
 }
 
-/// The sidecar as types, once its version and shape are right.
+/// The sidecar as types, after the checks of version and schema.
 fn typed(source: &SidecarText) -> Result<Sidecar, Vec<Diagnostic>> {
     let version = source.value.get("schema").and_then(|v| v.as_str());
     if let Some(other) = version.filter(|v| *v != VERSION) {
@@ -146,7 +152,7 @@ fn typed(source: &SidecarText) -> Result<Sidecar, Vec<Diagnostic>> {
     if !problems.is_empty() {
         return Err(problems);
     }
-    // The schema is made from these types; what it cannot say (a number beyond f32) is caught here.
+    // The schema comes from these types; what it cannot express (a number beyond f32) is caught here.
     serde_json::from_value(source.value.clone()).map_err(|error| {
         let mut problem = Diagnostic::new(codes::WRONG_SHAPE, format!("{}: {error}", source.file))
             .help("write a number of ordinary size there");
@@ -155,16 +161,15 @@ fn typed(source: &SidecarText) -> Result<Sidecar, Vec<Diagnostic>> {
     })
 }
 
-/// Time constant 1/ω₀ of the joints' stabiliser unless the sidecar says otherwise, s.
+/// Default time constant 1/ω₀ of the constraint stabilisation, s.
 const STABILIZATION_TIME: f64 = 0.04;
 
-/// Longest step of motion before an exhibit is moved by places, unless the sidecar says otherwise, s of processor time: two
-/// thirds of what a step lasts.
+/// Default processor time of a step, s, above which position-based motion takes over: two thirds of the step's length.
 const BUDGET: f64 = 2.8e-3;
-/// A hand is this much stronger than all that moves is heavy, unless the sidecar says otherwise: it lifts it, and breaks
-/// nothing that bears more than twice its own load.
+/// Default force of a grab over the weight of all moving bodies: it lifts them, and breaks no constraint that bears
+/// more than twice its own load.
 const STRENGTH: f64 = 2.0;
-/// m/s²: what weighs on Earth is as strong a pull where there is no gravity.
+/// Standard gravity, m/s², which gives the force of a grab where there is no gravity.
 const STANDARD_GRAVITY: f64 = 9.81;
 
 impl Context<'_> {
@@ -243,7 +248,7 @@ impl Context<'_> {
         }
     }
 
-    /// Length of one run, s.
+    /// Duration of a run, s.
     fn duration(&mut self) -> f64 {
         let Some(given) = self.sidecar.scene.duration else { return f64::INFINITY };
         let duration = self.positive(given.seconds(), "/scene/duration");
@@ -251,7 +256,7 @@ impl Context<'_> {
         duration
     }
 
-    /// How motion is computed.
+    /// Integrator, linear solver, and time constant of the stabilisation, s.
     fn solver(&mut self) -> (Integrator, Solver, f64) {
         let sidecar = self.sidecar;
         let given = &sidecar.solver;
@@ -274,7 +279,7 @@ impl Context<'_> {
         (integrator, solver, time)
     }
 
-    /// What moves the figure.
+    /// Motion mode.
     fn motion(&mut self) -> Motion {
         let given = &self.sidecar.solver;
         let budget = given.budget.map_or(BUDGET, |time| time.0);
@@ -293,7 +298,7 @@ impl Context<'_> {
         motion
     }
 
-    /// What hands may do.
+    /// Permission and force of grabs.
     fn touch(&mut self, bodies: &[Body]) -> TouchPermission {
         let given = self.sidecar.touch;
         let weight: f64 = bodies.iter().map(|body| body.properties.mass * STANDARD_GRAVITY).sum();
@@ -310,7 +315,7 @@ impl Context<'_> {
         TouchPermission { permitted: given.permitted, force }
     }
 
-    /// May constraints be open at the start?
+    /// Does the exhibit allow open constraints at the start?
     fn assembles(&self) -> bool {
         self.sidecar.solver.assemble
     }
@@ -335,7 +340,8 @@ impl Context<'_> {
         Some(node)
     }
 
-    /// Two nodes of one name are a trap even where the sidecar does not name them yet; the glTF validator is silent.
+    /// Warns of duplicate node names, which are a trap even where the sidecar does not use them yet; the glTF validator
+    /// does not report them.
     fn duplicate_nodes(&mut self) {
         let mut names: Vec<&str> = self.model.nodes.iter().map(|node| node.name.as_str()).collect();
         names.sort_unstable();

@@ -1,4 +1,4 @@
-//! Bodies that follow a given motion, and bodies that start elsewhere than in the model.
+//! Resolves kinematic bodies, and start poses that differ from the model.
 
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
@@ -11,15 +11,15 @@ use soffio_math::Interpolation;
 use soffio_math::{DQuat, DVec3, Pose};
 use soffio_multibody::dynamics::{KeyframeMotion, KinematicBody};
 
-/// Curves of the model are followed through this many poses a second.
+/// Sampling rate of the model's animation curves, 1/s.
 const SAMPLES_PER_SECOND: f64 = 60.0;
 /// Most poses of one motion.
 const MAX_KEYS: usize = 100_000;
-/// Time in which a stepped channel beside smooth ones goes from value to value, s.
+/// Duration of a step of a stepped channel beside smooth ones, s.
 const STEP_TIME: f64 = 1e-3;
 
 impl Context<'_> {
-    /// Where a body starts: as in the model, or where the sidecar puts it.
+    /// Start pose of a body: that of the model or of the sidecar.
     pub(super) fn start(&mut self, body: &sidecar::Body, model: Pose, at: &str) -> Pose {
         let position = body.initial.position.map_or(model.position, |p| DVec3::from(p.map(|x| x.0)));
         let rotation = match body.initial.rotation.map(DQuat::from_array) {
@@ -34,7 +34,7 @@ impl Context<'_> {
         Pose { rotation, position }
     }
 
-    /// Makes the body that is being declared follow its path or its node's animation; its pose at 0 s.
+    /// Makes the body that is being declared follow its path or its node's animation; returns its pose at 0 s.
     pub(super) fn drive(&mut self, body: &sidecar::Body, node: usize, at: &str) -> Pose {
         let rest = self.poses[self.body_nodes.len() - 1];
         let of = format!("body {}", body.node);
@@ -105,7 +105,7 @@ impl Context<'_> {
         (keys, interpolation)
     }
 
-    /// Makes the body that is being declared follow a path with its rotation unchanged; its pose at 0 s.
+    /// Makes the body that is being declared follow a path with constant rotation; returns its pose at 0 s.
     pub(super) fn drive_along(&mut self, path: &sidecar::Path, rest: Pose, at: &str) -> Pose {
         self.rising(path.points.iter().map(|point| point[0]), &format!("{at}/points"));
         let key = |&[t, x, y, z]: &[f64; 4]| (t, Pose { position: DVec3::new(x, y, z), ..rest });
@@ -126,7 +126,7 @@ impl Context<'_> {
     }
 }
 
-/// When an animation has to be looked at.
+/// Times at which an animation is sampled.
 fn times(channels: &[&Channel], interpolation: Interpolation) -> Vec<f64> {
     let keys = channels.iter().flat_map(|channel| channel.times.iter().copied());
     let mut times: Vec<f64> = keys.collect();

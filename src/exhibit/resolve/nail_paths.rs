@@ -1,15 +1,15 @@
-//! Paths that nails move on, as nodes of the model.
+//! Resolves the paths of moving nails, as nodes of the model.
 
 use super::super::model::{Model, Node};
 use super::super::sidecar::{self, Sidecar, Target};
 use soffio_math::{DMat4, DVec3};
 
-/// Name of the node that carries the path of a nail.
+/// Name of the node of a nail's path.
 pub(super) fn path_node(nail: &str) -> String {
     format!("{nail}/path")
 }
 
-/// The paths that nails move on: each is an empty node of the model at its first point, made a kinematic body.
+/// Adds the paths of moving nails to the model: each is an empty node at its first point, and becomes a kinematic body.
 pub(super) fn add_path_nodes(model: &mut Model, sidecar: &Sidecar) {
     for (name, path) in sidecar.constraint.paths() {
         let [_, x, y, z] = path.points.first().copied().unwrap_or_default();

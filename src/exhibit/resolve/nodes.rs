@@ -1,4 +1,4 @@
-//! From a name in the sidecar to a node of the model, and from a node to points, axes and meshes of its body.
+//! Looks up nodes by name, and the points, axes and meshes of their bodies.
 
 use super::super::codes;
 use super::super::diagnostic::{Diagnostic, quoted, similar_names};
@@ -15,7 +15,7 @@ impl Context<'_> {
         self.node_below(None, name, at, used_for)
     }
 
-    /// The node named `name`, those below `root` first.
+    /// The node named `name`; nodes below `root` have precedence.
     pub(super) fn node_below(&mut self, root: Option<usize>, name: &str, at: &str, used_for: &str) -> Option<usize> {
         let model = self.model;
         if let Some(index) = name.strip_prefix('#').and_then(|digits| digits.parse::<usize>().ok())
@@ -77,8 +77,8 @@ impl Context<'_> {
         with(last).into_iter().filter(ends).collect()
     }
 
-    /// The nodes that a pattern such as `Rod.*` stands for, in natural order: children of `root` that belong to its
-    /// body, or without a root all nodes that stand still.
+    /// The nodes of a pattern such as `Rod.*`, in natural order: children of `root` that belong to its body, or without
+    /// a root all fixed nodes.
     pub(super) fn marker_nodes(
         &mut self,
         root: Option<usize>,
@@ -138,12 +138,12 @@ impl Context<'_> {
         body.map_or(Pose::IDENTITY, |b| self.poses[b])
     }
 
-    /// Pose of a body (or the world) where it starts.
+    /// Start pose of a body (or of the world).
     pub(super) fn start_of(&self, body: Option<usize>) -> Pose {
         body.map_or(Pose::IDENTITY, |b| self.starts[b])
     }
 
-    /// Does this body follow a given motion?
+    /// Is the body kinematic?
     pub(super) fn is_kinematic(&self, body: usize) -> bool {
         self.drives.iter().any(|drive| drive.body == body)
     }
@@ -193,12 +193,12 @@ impl Context<'_> {
         }
     }
 
-    /// World position of an anchor at rest.
+    /// World position of an anchor in the model.
     pub(super) fn reference_position(&self, anchor: &Anchor) -> DVec3 {
         self.pose_of(anchor.body).point(anchor.point)
     }
 
-    /// World position of an anchor where its body starts.
+    /// World position of an anchor at the start.
     pub(super) fn start_position(&self, anchor: &Anchor) -> DVec3 {
         self.start_of(anchor.body).point(anchor.point)
     }
@@ -229,7 +229,7 @@ impl Context<'_> {
                 if mirrored { [base + t[0], base + t[2], base + t[1]] } else { [base + t[0], base + t[1], base + t[2]] }
             }));
         }
-        // Weld before the transform: equal corners are equal in the file, not always after rounding.
+        // Weld before the transform: equal vertices are equal in the file, not always after rounding.
         out = out.welded();
         for p in &mut out.positions {
             *p = frame.transform_point3(*p);
@@ -237,7 +237,7 @@ impl Context<'_> {
         (!out.triangles.is_empty()).then_some(out)
     }
 
-    /// The meshes at and below a node, in the frame of its body; reports where there is none.
+    /// The meshes at and below a node, in the frame of its body; reports a missing mesh.
     pub(super) fn mesh_of(&mut self, node: usize, at: &str, used_for: &str) -> Option<TriangleMesh> {
         let mut mesh = TriangleMesh::default();
         for part in self.subtree(node, &[]) {
@@ -256,7 +256,7 @@ impl Context<'_> {
     }
 }
 
-/// Rotation and position of a matrix of rotation, translation and one positive scale; `None` where it is more.
+/// Rotation and position of a matrix of rotation, translation and one positive scale; `None` for other matrices.
 pub(super) fn rigid(matrix: &DMat4) -> Option<Pose> {
     /// glTF stores single precision: seven digits, of which chains of nodes lose one or two.
     const EVEN: f64 = 1e-5;

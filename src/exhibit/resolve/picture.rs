@@ -1,30 +1,30 @@
-//! What is drawn on a body as a line that a sliding contact reads: its normal texture, or else the lightness of its
-//! colour.
+//! Surface profile of a body, read along a line by sliding contacts: from its normal map, or else from the lightness of
+//! its colour texture.
 //!
-//! The line winds over the picture, stroke beside stroke, and turns round at each edge, as a hand does that rubs: so it
-//! is metres long on a picture of a hand's breadth, has no seam, and comes back to its start by the way it went.
+//! The line covers the picture in adjacent strokes and reverses at each edge, like a rubbing hand. So it is metres long
+//! on a picture of a hand's breadth, has no seam, and returns to its start.
 //!
 //! ```text
 //! x = fold(i, w),  y = fold(i/w · h/rows, h)      i = 0 … 2 w rows − 1;  fold goes there and back
 //! ```
 //!
-//! A needle that follows heights h(s) feels their slope; a normal map holds it, −∂h/∂x = n_x/n_z, and the way decides its
-//! sign. How wide the picture is on the body its triangles say.
+//! A needle that follows heights h(s) responds to their slope; a normal map contains it, −∂h/∂x = n_x/n_z, and the
+//! direction of motion decides its sign. The width of the picture on the body follows from its triangles.
 
 use super::context::Context;
 use crate::model::{Image, Primitive};
 use soffio_math::{DMat4, DVec3};
 use soffio_sound::SurfaceLine;
 
-/// Most points of a line: half of what the synth takes, there and back.
+/// Most points of a line: half of the synthesiser's limit, since the line runs in both directions.
 const MAX_SAMPLES: usize = 1 << 17;
-/// A picture that has fewer pixels across has nothing to read.
+/// Least width of a picture, pixels.
 const MIN_SAMPLES: usize = 4;
-/// Steepest slope that a normal map's pixel is read as.
+/// Steepest slope read from a normal map.
 const MAX_SLOPE: f32 = 4.0;
 
 impl Context<'_> {
-    /// The line over the largest picture on a node and on those below it; `None` where they have none.
+    /// The line over the largest picture on a node and the nodes below it; `None` where they have no picture.
     pub(super) fn surface_line(&self, node: usize) -> Option<SurfaceLine> {
         let model = self.model;
         let mut largest: Option<(f64, SurfaceLine)> = None;
@@ -55,13 +55,13 @@ fn slope([x, _, z, _]: [u8; 4]) -> f32 {
     (part(x) / part(z).max(1e-3)).clamp(-MAX_SLOPE, MAX_SLOPE)
 }
 
-/// Luma of a colour as stored, so as seen (ITU-R BT.709).
+/// Luma of an sRGB colour (ITU-R BT.709).
 fn lightness([r, g, b, _]: [u8; 4]) -> f32 {
     (0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b)) / 255.0
 }
 
-/// Area of the triangles, m², and the metres that a unit of the picture's width takes on them, on average over it:
-/// ∂P/∂u = (v₂ e₁ − v₁ e₂)/(u₁ v₂ − u₂ v₁) for the edges e and their ways (u, v) on the picture.
+/// Area of the triangles, m², and mean length on them of the picture's width, m: ∂P/∂u = (v₂ e₁ − v₁ e₂)/(u₁ v₂ − u₂
+/// v₁) for the edges e with texture differences (u, v).
 fn size(primitive: &Primitive, world: &DMat4) -> [f64; 2] {
     let (mut area, mut width) = (0.0, 0.0);
     for &[a, b, c] in primitive.indices.as_chunks::<3>().0 {
@@ -81,7 +81,7 @@ fn size(primitive: &Primitive, world: &DMat4) -> [f64; 2] {
     [area, if area > 0.0 { width / area } else { 0.0 }]
 }
 
-/// The line over an image that is `width` metres wide; of slopes, those against the way count with the other sign.
+/// The line over an image that is `width` metres wide; slopes change sign on the strokes back.
 fn wind(image: &Image, read: fn([u8; 4]) -> f32, slopes: bool, width: f64) -> Option<SurfaceLine> {
     let (w, h) = (image.width as usize, image.height as usize);
     let pixels = image.rgba.as_chunks::<4>().0;

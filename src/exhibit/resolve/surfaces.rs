@@ -1,4 +1,4 @@
-//! What feels the wind and what sounds: both are read off the meshes and wires of the bodies.
+//! Resolves wind surfaces and sounds, from the meshes and wires of the bodies.
 
 use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::sidecar::{self, Faces, Trigger};
@@ -14,11 +14,11 @@ use soffio_wind::{Surface, SurfaceShape};
 const WIRE_DRAG: f64 = 1.2;
 /// Skin friction of a wire along its axis.
 const WIRE_SKIN: f64 = 0.02;
-/// A mesh whose smallest extent is below this part of its second is a sheet.
+/// A mesh counts as a sheet where its smallest extent is below this fraction of its second.
 const SHEET: f64 = 0.1;
-/// Clicks of one body that sound at once, where the sidecar does not say.
+/// Default number of simultaneous impact sounds of a body.
 const DEFAULT_VOICES: usize = 4;
-/// Sheet that has no depth in the model and none in the sidecar, m.
+/// Thickness of a sheet without a thickness in the model or the sidecar, m.
 const NOMINAL_THICKNESS: f64 = 5e-4;
 
 fn is_sheet(mesh: &TriangleMesh, extents: &Extents) -> bool {
@@ -26,7 +26,7 @@ fn is_sheet(mesh: &TriangleMesh, extents: &Extents) -> bool {
 }
 
 impl Context<'_> {
-    /// Surfaces of meshes, then of wires.
+    /// Wind surfaces of meshes, then of wires.
     pub(super) fn wind_surfaces(&mut self, wires: &[Wire]) -> Vec<Surface> {
         let sidecar = self.sidecar;
         let mut out: Vec<Surface> = Vec::new();
@@ -71,7 +71,7 @@ impl Context<'_> {
         let mesh = self.mesh_of(node, &place, "a wind surface")?;
         let extents = mesh.extents()?;
         let sheet = given.faces.map_or_else(|| is_sheet(&mesh, &extents), |faces| faces == Faces::Both);
-        // A sheet is one surface with two sides: of a closed plate one face stands for both.
+        // A closed plate is one surface with two sides, represented by one of its faces.
         let mesh = if sheet && mesh.is_closed() { fit::one_side(&mesh, extents.axes.z_axis) } else { mesh };
         let of = format!("wind surface {}", given.node);
         let area = format!("{:.6} m²{}", mesh.area(), if sheet { ", both sides" } else { "" });
@@ -106,7 +106,7 @@ impl Context<'_> {
         })
     }
 
-    /// Instruments, and which motion plays which.
+    /// Instruments and their triggers.
     pub(super) fn sounds(
         &mut self,
         bodies: &[Body],
@@ -183,7 +183,7 @@ impl Context<'_> {
             timbre: given.timbre.clone(),
             body: size,
             material: sound_material,
-            // Only what slides reads it.
+            // Only sliding contacts read it.
             surface: (given.on == Trigger::Slide).then(|| self.surface_line(node)).flatten(),
             gain: from_decibels(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
@@ -203,7 +203,7 @@ impl Context<'_> {
         ))
     }
 
-    /// Checks the size of a sounding body and notes where it comes from.
+    /// Checks the size of a sounding body and records its source.
     fn record_size_origins(&mut self, size: &SoundBody, at: &str, used_for: &str) {
         for (key, value) in
             [("half_length", size.half_extents[0]), ("half_width", size.half_extents[1]), ("thickness", size.thickness)]
@@ -229,7 +229,7 @@ impl Context<'_> {
         found
     }
 
-    /// Reports a timbre that is not shipped, or that what sets off the sound does not play.
+    /// Reports an unknown timbre, or one that the trigger does not play.
     fn check_timbre(&mut self, given: &sidecar::Sound, at: &str, used_for: &str) {
         let (name, at) = (given.timbre.as_str(), &format!("{at}/timbre"));
         if let Ok(preset) = timbre::Preset::shipped(name) {
@@ -268,7 +268,7 @@ impl Context<'_> {
     }
 }
 
-/// The sidecar's word for what sets a sound off.
+/// The trigger of a sidecar's `on`.
 fn trigger(given: Trigger) -> SoundTrigger {
     match given {
         Trigger::Impact => SoundTrigger::Impact,
@@ -277,8 +277,8 @@ fn trigger(given: Trigger) -> SoundTrigger {
     }
 }
 
-/// Size and mass of what sounds: those of the mesh where the sidecar gives none. `own_mass` is that of the whole body, kg, where
-/// it sounds as a whole; a part of it weighs what its material does.
+/// Size and mass of a sounding body: those of the mesh where the sidecar gives none. `own_mass` is that of the whole
+/// body, kg, where it sounds as a whole; a part has the mass of its own material.
 fn sound_body(
     params: sidecar::SoundParams,
     mesh: &TriangleMesh,

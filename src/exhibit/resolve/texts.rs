@@ -1,4 +1,4 @@
-//! Labels, credit, and the attract script with its recorded breaths.
+//! Resolves label texts, credit, and the attract script with its breaths.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,13 +13,13 @@ use soffio_detector::generate::{self, BreathShape, HARDEST_M_S};
 
 /// Most bytes of a recorded breath.
 const MAX_WAV_BYTES: u64 = 64 << 20;
-/// Rate of a made breath, Hz: all that the blow detector listens to lies below 6 kHz.
+/// Sample rate of a synthesised breath, Hz: the blow detector uses only frequencies below 6 kHz.
 const BREATH_RATE: u32 = 16_000;
-/// Quiet before and after a made breath, s: the detector learns the room's noise in it.
+/// Silence before and after a synthesised breath, s, in which the detector measures its noise floor.
 const QUIET_AROUND: f64 = 0.4;
-/// Longest attack, hold or release of a made breath, s.
+/// Longest attack, hold or release of a synthesised breath, s.
 const MAX_BREATH_SECONDS: f64 = 30.0;
-/// Pause after the last step, s, where the sidecar gives no duration.
+/// Default pause after the last step of the script, s.
 const PAUSE: f64 = 10.0;
 
 impl Context<'_> {
@@ -61,7 +61,7 @@ impl Context<'_> {
         Labels { default_language, languages }
     }
 
-    /// Words in the order of the file.
+    /// Label texts in the order of the file.
     fn label(&self, texts: &sidecar::LabelTexts, at: &str) -> Label {
         let ordered = |key: &str, map: &BTreeMap<String, String>| {
             let keys = self.source.keys_of(&join(at, key)).into_iter();
@@ -77,7 +77,7 @@ impl Context<'_> {
         }
     }
 
-    /// Warns where a language lacks what the default one has.
+    /// Warns where a language lacks texts of the default one.
     fn compare_languages(&mut self, default: &sidecar::LabelTexts, default_code: &str) {
         let sidecar = self.sidecar;
         for (code, texts) in sidecar.label.languages.iter().filter(|(code, _)| *code != default_code) {
@@ -95,7 +95,7 @@ impl Context<'_> {
         }
     }
 
-    /// Reports a key that no language has words for.
+    /// Reports a key without a text in any language.
     fn require_text(
         &mut self,
         key: &str,
@@ -185,7 +185,7 @@ impl Context<'_> {
         }
     }
 
-    /// How far the camera is led, rad: no farther than visitors may go.
+    /// Orbit angles of the camera, rad, within the limits for visitors.
     fn look(&mut self, turn: [f64; 2], at: &str) -> [f64; 2] {
         let ends = [[-MAX_YAW, MAX_YAW], [-MAX_PITCH_DOWN, MAX_PITCH_UP]];
         for (i, (turn, [least, most])) in turn.into_iter().zip(ends).enumerate() {
@@ -200,7 +200,7 @@ impl Context<'_> {
         turn
     }
 
-    /// Samples and rate of a breath: the recording's, or made from its strength; `seed` makes two of them differ.
+    /// Samples and rate of a breath: recorded, or synthesised from its strength; `seed` makes two of them differ.
     fn blow(&mut self, given: &sidecar::Blow, at: &str, seed: usize) -> Option<(Arc<[f32]>, u32)> {
         let times = [("attack", given.attack), ("hold", given.hold), ("release", given.release)];
         match (&given.wav, given.strength) {

@@ -1,4 +1,4 @@
-//! The winds of an exhibit, and what stands in their way.
+//! Resolves the winds of an exhibit and its shelters.
 
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
@@ -12,14 +12,14 @@ use soffio_wind::ambient::{Inlet, Modulation, Wind, WindKind};
 use soffio_wind::breath::SpreadLaw;
 use soffio_wind::{Shelter, Surface};
 
-/// Size of the room's largest eddies (m) and time in which they change (s), where the sidecar does not say.
-const ROOM_SCALE: f64 = 0.6;
-const ROOM_PERIOD: f64 = 6.0;
-/// Name of the room's own air among the winds.
-const ROOM: &str = "room";
+/// Default size (m) and period (s) of the largest eddies of ambient turbulence.
+const AMBIENT_SCALE: f64 = 0.6;
+const AMBIENT_PERIOD: f64 = 6.0;
+/// Name of the ambient turbulence among the winds.
+const AMBIENT: &str = "room";
 
 impl Context<'_> {
-    /// What a breath is to the exhibit.
+    /// How a breath acts on the exhibit.
     pub(super) fn breath_tuning(&mut self) -> BreathTuning {
         let given = self.sidecar.wind.breath;
         let law = match given.law {
@@ -36,7 +36,7 @@ impl Context<'_> {
         BreathTuning { law, gain: given.gain, lip_diameter }
     }
 
-    /// How it comes to rest when nobody blows.
+    /// Idle damping.
     pub(super) fn calm(&mut self) -> Option<IdleDamping> {
         let given = self.sidecar.wind.calm?;
         let after = self.not_negative(given.after.0, "/wind/calm/after");
@@ -46,12 +46,12 @@ impl Context<'_> {
         Some(IdleDamping { after, time })
     }
 
-    /// The room's air, fans, draughts and gusts.
+    /// Ambient turbulence, fans, draughts and gusts.
     pub(super) fn winds(&mut self) -> Vec<Wind> {
         let sidecar = self.sidecar;
         let mut winds: Vec<Wind> = Vec::new();
         if let Some(room) = &sidecar.wind.room {
-            winds.push(self.room(room, "/wind/room"));
+            winds.push(self.ambient_turbulence(room, "/wind/room"));
         }
         for (i, fan) in sidecar.wind.fan.iter().enumerate() {
             let at = format!("/wind/fan/{i}");
@@ -72,16 +72,16 @@ impl Context<'_> {
     }
 
     fn unique_wind(&mut self, name: &str, winds: &[Wind], at: &str) {
-        self.unique(name, name == ROOM || winds.iter().any(|wind| wind.name == name), &format!("{at}/name"));
+        self.unique(name, name == AMBIENT || winds.iter().any(|wind| wind.name == name), &format!("{at}/name"));
     }
 
-    fn room(&mut self, given: &sidecar::Room, at: &str) -> Wind {
-        let scale = given.scale.map_or(ROOM_SCALE, |l| self.positive(l.0, &format!("{at}/scale")));
-        let period = given.period.map_or(ROOM_PERIOD, |t| self.positive(t.0, &format!("{at}/period")));
+    fn ambient_turbulence(&mut self, given: &sidecar::AmbientTurbulence, at: &str) -> Wind {
+        let scale = given.scale.map_or(AMBIENT_SCALE, |l| self.positive(l.0, &format!("{at}/scale")));
+        let period = given.period.map_or(AMBIENT_PERIOD, |t| self.positive(t.0, &format!("{at}/period")));
         self.record_origin("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
         self.record_origin("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
         let kind = WindKind::Turbulence { scale, period, seed: given.seed };
-        Wind { name: ROOM.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), modulation: Modulation::Steady }
+        Wind { name: AMBIENT.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), modulation: Modulation::Steady }
     }
 
     fn fan(&mut self, given: &sidecar::Fan, at: &str) -> Option<Wind> {
@@ -118,7 +118,7 @@ impl Context<'_> {
         Some(Wind { name: given.name.clone(), kind: kind?, speed, modulation: rhythm })
     }
 
-    /// A wind that blows one way: everywhere, or from a place and so wide.
+    /// A wind in one direction: everywhere, or of some width around a point.
     fn one_way(
         &mut self,
         direction: [f64; 3],
@@ -166,8 +166,7 @@ impl Context<'_> {
         })
     }
 
-    /// What stands in the wind's way: wind surfaces as they feel it, all other meshes of the model as they are, one
-    /// shelter a body.
+    /// Shelters from the wind, one for each body: wind surfaces as sampled, all other meshes as they are.
     pub(super) fn shelters(&mut self, surfaces: &[Surface]) -> Vec<Shelter> {
         let sidecar = self.sidecar;
         let mut taken: Vec<bool> = vec![false; self.model.nodes.len()];

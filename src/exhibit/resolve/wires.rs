@@ -1,4 +1,4 @@
-//! Wires and cords: polylines in the frame of the body that carries them.
+//! Resolves wires and cords: polylines in the frame of the body that carries them.
 
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Color, Point, Points};
@@ -6,7 +6,7 @@ use super::super::{Wire, codes};
 use super::context::Context;
 use soffio_math::{DVec3, pow};
 
-/// Segments that a smooth wire gets between two of its points.
+/// Segments of a smooth wire between two of its points.
 const SUBDIVISIONS: usize = 8;
 
 impl Context<'_> {
@@ -28,7 +28,7 @@ impl Context<'_> {
         wires
     }
 
-    /// Reports a name that is taken.
+    /// Reports a duplicate name.
     pub(super) fn unique(&mut self, name: &str, taken: bool, at: &str) {
         if taken {
             let problem = Diagnostic::new(codes::DUPLICATE_NAME, format!("the name \"{name}\" is taken"));
@@ -45,7 +45,7 @@ impl Context<'_> {
         };
         let body = node.and_then(|n| self.owner[n]);
         if let (Some(node), None) = (node, body) {
-            // A node that stands still carries the wire in its own space; nothing is wrong with that.
+            // A fixed node carries the wire in its own space, which is allowed.
             let name = &self.model.nodes[node].name;
             let source = format!("glTF node {name}, which is fixed");
             self.record_origin(&format!("wire {}", given.name), "body", "the world".into(), "/-", &source);
@@ -105,7 +105,7 @@ impl Context<'_> {
         }
     }
 
-    /// A point of the world, or the place of a node that stands still.
+    /// A point of the world, or the position of a fixed node.
     pub(super) fn fixed_point(&mut self, point: &Point, at: &str, used_for: &str) -> Option<DVec3> {
         match point {
             Point::Position(p) => Some(DVec3::from(p.map(|x| x.0))),

@@ -15,7 +15,7 @@ pub struct Winds {
     /// Idle damping: brings the exhibit to rest when nobody blows, so that the next breath is visible. By default none.
     pub calm: Option<Calm>,
     /// Ambient turbulence, which keeps a mobile moving when nobody blows. By default none.
-    pub room: Option<Room>,
+    pub room: Option<AmbientTurbulence>,
     /// Jets from a round opening: a fan, an air conditioner.
     pub fan: Vec<Fan>,
     /// Winds in one direction: from a door, through a window.
@@ -70,7 +70,7 @@ pub enum Law {
 /// Ambient turbulence of the gallery.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Room {
+pub struct AmbientTurbulence {
     /// Speed, root mean square: 0.05 … 0.2 m/s indoors.
     pub speed: Function<Speed>,
     /// Size of its largest eddies; by default 0.6 m.

@@ -262,13 +262,13 @@ fn what_cannot_be_said_here_is_told_node_by_node() {
         ("Alarm", "trigger"),
         ("Tapered", "wide at one end"),
         ("Mesh", "convex hull"),
-        ("Joined", "never collide"),
+        ("Joined", "do not collide"),
         ("Joined", "soft limit"),
         ("Joined", "a cone"),
         ("Joined", "m apart"),
-        ("Joined", "no spring about a hinge"),
+        ("Joined", "other than a spring about a hinge"),
         ("Lost", "connects nothing"),
-        ("Floor", "endless"),
+        ("Floor", "infinite"),
     ] {
         let start = format!("node \"{node}\": ");
         let output = made.remarks.iter().any(|remark| remark.starts_with(&start) && remark.contains(words));
@@ -276,7 +276,7 @@ fn what_cannot_be_said_here_is_told_node_by_node() {
         // And it stands in the file, where the curator works.
         assert!(sidecar(&made).contains(words), "{words}");
     }
-    // The joint that is open draws itself together.
+    // The open joint is closed by the stabilisation.
     assert!(sidecar(&made).contains("assemble = true") && exhibit.bodies.len() == 5);
 }
 
@@ -292,7 +292,7 @@ fn a_plain_model_gets_bodies_that_hang_and_swing() {
     assert_eq!(names, ["Cup", "Leaf"], "{:?}", made.remarks);
     assert!((exhibit.bodies[0].properties.mass - 2e-3 * 2700.0).abs() < SINGLE * 5.4);
     assert!((exhibit.bodies[1].properties.mass - 0.02 * 1e-3 * 2700.0).abs() < SINGLE);
-    assert!(made.remarks.iter().any(|r| r.contains("Big stand") && r.contains("stands still")), "{:?}", made.remarks);
+    assert!(made.remarks.iter().any(|r| r.contains("Big stand") && r.contains("is fixed")), "{:?}", made.remarks);
     let start = exhibit.bodies[1].pose.position;
     let end = run(exhibit, 5);
     assert!(end.iter().all(|p| p.distance(end[0]) < 1e-6), "what hangs above its centre is at rest");

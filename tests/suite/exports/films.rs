@@ -34,10 +34,10 @@ const NO_DRIVER: i32 = 3;
 /// Did it end well? `None` where there is no driver.
 #[track_caller]
 fn done(output: &Output) -> Option<()> {
-    let output = String::from_utf8_lossy(&output.stderr);
-    let found = if output.status.code() == Some(NO_DRIVER) { Err(&output) } else { Ok(()) };
+    let errors = String::from_utf8_lossy(&output.stderr);
+    let found = if output.status.code() == Some(NO_DRIVER) { Err(&errors) } else { Ok(()) };
     require("Vulkan driver", found)?;
-    assert_eq!(output.status.code(), Some(0), "{output}");
+    assert_eq!(output.status.code(), Some(0), "{errors}");
     Some(())
 }
 

@@ -1,4 +1,4 @@
-//! Do the constraints hold where the bodies start, and can they be solved well?
+//! Checks of constraints: are they closed at the start, and can they be solved accurately?
 
 use super::super::super::bodies::Body;
 use super::super::super::codes;
@@ -9,16 +9,16 @@ use soffio_math::PI;
 use soffio_multibody::articulation::{Constraint, ConstraintKind};
 use soffio_multibody::dynamics::KinematicBody;
 
-/// Points of a joint may be this far apart at rest, m: single-precision files of a few metres, and drawing by hand.
+/// Largest gap of a joint at the start, m: single-precision files of a few metres, and manual drawing.
 pub(super) const APART: f64 = 1e-4;
-/// Axes of an orientation may be this far from their angle at the start: 0.1°.
+/// Largest deviation of an orientation at the start: 0.1°.
 const OBLIQUE: f64 = 0.1 * PI / 180.0;
-/// Ratio of two joined masses above which digits run short: f64 has 16, the solver keeps 10.
+/// Ratio of two joined masses above which precision runs short: f64 has 16 digits, the solver keeps 10.
 const MASS_RATIO: f64 = 1e6;
 
 impl Context<'_> {
-    /// Holds the constraint at the start? What does not would be torn together in the first step; only a figure that
-    /// assembles itself may begin so.
+    /// Reports a constraint that is open at the start and would be torn closed in the first step; an exhibit with
+    /// `assemble` may start so.
     pub(super) fn check_rest(&mut self, kind: &ConstraintKind, name: &str, at: &str) {
         if self.assembles() {
             return;
@@ -72,7 +72,7 @@ impl Context<'_> {
         }
     }
 
-    /// Warns of joined bodies whose masses lie far apart.
+    /// Warns of joined bodies whose masses differ widely.
     pub(in super::super) fn check_mass_ratios(
         &mut self,
         constraints: &[Constraint],

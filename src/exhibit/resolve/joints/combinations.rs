@@ -1,6 +1,6 @@
-//! Combinations, expanded into basic constraints.
+//! Combined joints, expanded into basic constraints.
 //!
-//! With h the axis of the first body and (t₁, t₂, h) a right-handed frame fixed in the second at rest:
+//! With h the axis of the first body and (t₁, t₂, h) a right-handed frame fixed in the second in the model:
 //!
 //! ```text
 //! hinge, windmill   point                    h ⟂ t₁   h ⟂ t₂
@@ -95,7 +95,7 @@ impl Context<'_> {
         self.record_header_origins(&header, "weld", out, first);
     }
 
-    /// The point of the body and what carries it; `None` where a problem was reported.
+    /// The point of the body and its counterpart; `None` where a problem was reported.
     fn pivot(
         &mut self,
         body: &str,
@@ -117,7 +117,7 @@ impl Context<'_> {
         self.body_axis(body, axis, &places.0, &places.1, header.name)
     }
 
-    /// A direction in the space of the target's node, fixed in the body that carries it.
+    /// A direction in the space of the target's node, fixed in the body that the node belongs to.
     fn target_axis(
         &mut self,
         to: Option<&Target>,
@@ -137,7 +137,7 @@ impl Context<'_> {
         }
     }
 
-    /// Two orientations that keep `axis` where it points at rest in `other`.
+    /// Two orientations that keep `axis` in its model direction relative to `other`.
     fn across(&mut self, out: &mut Joints, header: &Header, axis: Axis, other: Option<usize>) {
         let (t, n) = tangents(self.pose_of(axis.body).vector(axis.direction));
         for (part, direction) in [("across-1", t), ("across-2", n)] {
@@ -146,7 +146,7 @@ impl Context<'_> {
         }
     }
 
-    /// Two planes through `b` along `way` (world, at rest) that keep `a` on a line.
+    /// Two planes through `b` along `way` (world, in the model) that keep `a` on a line.
     fn planes(&mut self, out: &mut Joints, header: &Header, (a, b): (Anchor, Anchor), way: DVec3) {
         let (t, n) = tangents(way);
         for (part, normal) in [("plane-1", t), ("plane-2", n)] {
@@ -175,7 +175,7 @@ impl Context<'_> {
         out.limits.push(Limit { name: header.name.to_owned(), kind, restitution });
     }
 
-    /// Reports a range that is empty, endless, or does not hold its start.
+    /// Reports a range that is empty, infinite, or does not contain its start.
     pub(super) fn check_range(&mut self, (min, max): (f64, f64), start: Option<f64>, at: &str, name: &str) -> bool {
         let problem = if min == f64::NEG_INFINITY && max == f64::INFINITY {
             (codes::MISSING_KEY, format!("\"{name}\" has no bounds"), "give min, max, or both")
@@ -192,7 +192,7 @@ impl Context<'_> {
     }
 }
 
-/// T ⟂ N.
+/// T ⟂ N: the two axes stay perpendicular.
 pub(super) fn perpendicular(a: Axis, b: Axis) -> ConstraintKind {
     ConstraintKind::Orientation { a, b, angle: Function::default() }
 }

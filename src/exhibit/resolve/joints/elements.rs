@@ -1,9 +1,9 @@
-//! Elements: one degree of freedom added to what is held, or freed of it.
+//! Elements: one more degree of freedom constrained, or one freed.
 //!
-//! With d the axis of the degree of freedom at rest: a way is held by the plane N = d through the point; a turn by the
-//! orientation T ⟂ N with T × N = d, T fixed in the body and N in what it is held against, so that T·N = sin(angle)
-//! for a right-handed turn of the body. To free a way, the point constraint is split into three planes along the
-//! frame's axes, one of which then stands back while the element acts.
+//! With d the axis of the degree of freedom in the model: a translation is constrained by the plane N = d through the
+//! point. A rotation is constrained by the orientation T ⟂ N with T × N = d, T fixed in the body and N in its
+//! counterpart, so that T·N = sin(angle) for a right-handed rotation of the body. To free a translation, the point
+//! constraint is split into three planes along the frame's axes, one of which is inactive while the element acts.
 
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
@@ -14,10 +14,10 @@ use soffio_math::Function;
 use soffio_math::{DMat3, DVec3, tangents};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
 
-/// A row holds a turn where its axis is this near to the turn's (cosine).
+/// A row constrains a rotation where its axis is this near to the rotation's (cosine).
 const ALONG: f64 = 0.999;
 
-/// Index of the axis, and whether it is turned about.
+/// Index of the axis, and whether the freedom is a rotation.
 fn axis_of(dof: Dof) -> (usize, bool) {
     match dof {
         Dof::Tx => (0, false),
@@ -51,7 +51,7 @@ impl Context<'_> {
         Some(found)
     }
 
-    /// World axes of the frame at rest, and the body that carries it.
+    /// World axes of the frame in the model, and the body that carries it.
     fn frame(&mut self, frame: &Frame, body: Option<usize>, header: &Header) -> Option<(DMat3, Option<usize>)> {
         match frame {
             Frame::Word(FrameWord::World) => Some((DMat3::IDENTITY, None)),
@@ -69,7 +69,7 @@ impl Context<'_> {
 
     fn add_element(&mut self, given: &sidecar::Element, header: &Header, out: &mut Joints) {
         let at = header.at;
-        // The point that is held, and what it is held against: both of the constraint, or the body's and the frame's.
+        // The constrained point and its counterpart: those of the constraint, or the body's and the frame's.
         let (point, against) = match (&given.of, &given.body) {
             (Some(of), None) => {
                 let Some(found) = self.named(of, at, out) else { return };
@@ -88,7 +88,7 @@ impl Context<'_> {
             }
         };
         let Some((axes, carrier)) = self.frame(&given.frame, point.body, header) else { return };
-        // Axes that the body itself carries hold it against the world all the same.
+        // Axes that the body itself carries constrain it relative to the world.
         let own = carrier == point.body;
         let against = against.unwrap_or(if own { None } else { carrier });
         if !self.joinable(point.body, against, header.name, at) {
@@ -167,7 +167,7 @@ impl Context<'_> {
         self.record_timing_origins(&format!("constraint {}", header.name), header);
     }
 
-    /// The orientation row that holds the turn about `d`.
+    /// The orientation row that constrains the rotation about `d`.
     fn turn_row(&self, found: &[usize], d: DVec3, out: &Joints) -> Option<usize> {
         let along = |&i: &usize| match &out.constraints[i].kind {
             ConstraintKind::Orientation { a, b, .. } => {
@@ -179,7 +179,8 @@ impl Context<'_> {
         found.iter().copied().find(|i| along(i) > ALONG)
     }
 
-    /// The plane that holds the way along axis `index`; a point constraint is split into three planes for it.
+    /// The plane that constrains the translation along axis `index`; a point constraint is split into three planes for
+    /// it.
     fn split_point(
         &mut self,
         found: &[usize],
@@ -202,7 +203,7 @@ impl Context<'_> {
             found.iter().copied().find(|&i| matches!(out.constraints[i].kind, ConstraintKind::PointToPoint { .. }))?;
         let whole = out.constraints[point].clone();
         let ConstraintKind::PointToPoint { a, b } = whole.kind else { return None };
-        // The planes move with the frame's own body where that is one of the two, else with the second.
+        // The planes move with the frame's own body where it is one of the two, else with the second.
         let (held, carrying) = if carrier == a.body { (b, a) } else { (a, b) };
         let parts = ["tx", "ty", "tz"].into_iter().enumerate().map(|(k, part)| {
             let normal = self.pose_of(carrying.body).inverse_vector(axes.col(k));
@@ -223,7 +224,7 @@ impl Context<'_> {
     }
 }
 
-/// Where a constraint holds its two bodies.
+/// The two anchors of a constraint.
 fn ends(kind: &ConstraintKind) -> Option<(Anchor, Anchor)> {
     let origin = |body| Anchor { body, point: DVec3::ZERO };
     match kind {

@@ -1,4 +1,4 @@
-//! Numbers that may change with time, checked.
+//! Resolves numbers that change with time.
 
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
@@ -8,7 +8,7 @@ use super::super::context::Context;
 use soffio_math::Function;
 use soffio_math::Interpolation;
 
-/// The sidecar's word for what happens between two keys.
+/// The interpolation of a sidecar's word.
 pub(crate) fn interpolation(given: sidecar::Interpolation) -> Interpolation {
     match given {
         sidecar::Interpolation::Step => Interpolation::Step,
@@ -19,7 +19,7 @@ pub(crate) fn interpolation(given: sidecar::Interpolation) -> Interpolation {
 }
 
 impl Context<'_> {
-    /// A function of time; what is wrong with it is reported.
+    /// A function of time; reports its problems.
     pub(super) fn function<Q: Quantity>(&mut self, given: &sidecar::Function<Q>, at: &str) -> Function {
         match given {
             sidecar::Function::Value(value) => value.si().into(),
@@ -37,7 +37,7 @@ impl Context<'_> {
         }
     }
 
-    /// A function that must never be below zero.
+    /// A function that must not become negative.
     pub(crate) fn function_from_zero<Q: Quantity>(&mut self, given: &sidecar::Function<Q>, at: &str) -> Function {
         let function = self.function(given, at);
         let least = match &function {
@@ -49,7 +49,7 @@ impl Context<'_> {
         function
     }
 
-    /// Reports times that do not rise, or begin before the start.
+    /// Reports times that do not increase, or are negative.
     pub(crate) fn rising(&mut self, times: impl Iterator<Item = f64>, at: &str) {
         let mut last = f64::NEG_INFINITY;
         for (i, time) in times.enumerate() {
@@ -64,7 +64,7 @@ impl Context<'_> {
     }
 }
 
-/// A function in words.
+/// A function as text.
 pub(super) fn shown(function: &Function, unit: &str) -> String {
     match function {
         Function::Constant(value) => format!("{value} {unit}"),

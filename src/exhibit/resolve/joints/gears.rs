@@ -1,8 +1,7 @@
-//! Gears, drums with cords, and whether trains of gears can turn.
+//! Resolves gears and drums with cords, and checks whether gear trains can turn.
 //!
-//! Two wheels on parallel axles obey r₁ φ₁ ± r₂ φ₂ = const, + where they turn oppositely (external teeth, axes that
-//! point the same way). Going round a ring of gears, the turns of one wheel bring about its own turn again: the product
-//! of the ratios must be 1.
+//! Two wheels on parallel axles obey r₁ φ₁ ± r₂ φ₂ = const, with + where they rotate oppositely (external teeth, axes
+//! that point the same way). Around a ring of gears the ratios must multiply to 1.
 
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
@@ -12,13 +11,13 @@ use super::{Header, Joints};
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
 
-/// Axles that are further than this from parallel (cosine) are bevel gears: their turns are taken as they are given.
+/// Axles that are further than this from parallel (cosine) are bevel gears, which are not checked.
 const PARALLEL: f64 = 0.99;
-/// Radii may differ by this share of the axles' distance: gears have some play.
+/// Tolerance of the radii, as a fraction of the axles' distance: gears have some play.
 const PLAY: f64 = 0.02;
-/// A component below this is rounding of a single-precision file.
+/// Components below this are rounding of a single-precision file.
 const UPRIGHT: f64 = 1e-3;
-/// Ratios around a ring may differ by this from 1: tooth counts are exact, radii are typed with a few digits.
+/// Tolerance of the ratio around a ring: tooth counts are exact, radii are typed with a few digits.
 const RATIO: f64 = 1e-6;
 
 impl Context<'_> {
@@ -45,7 +44,7 @@ impl Context<'_> {
         let place = format!("{at}/backlash");
         let Some(play) = self.bound(given.backlash, 0.0, teeth_a, &place, &given.name) else { return };
         if self.not_negative(play, &place) > 0.0 {
-            // A turn of wheel b where sizes are teeth, a way of the pitch circle where they are radii.
+            // An angle of wheel b where sizes are teeth, a length on the pitch circle where they are radii.
             let unit = if teeth_a { size_b } else { 1.0 };
             let terms = [term(a, size_a / unit), term(b, sense * size_b / unit)];
             self.loose_gear(&header, LimitKind::Play { terms, play }, out);
@@ -61,7 +60,7 @@ impl Context<'_> {
         }
     }
 
-    /// A gear with backlash: its teeth meet on either flank, and do not bounce.
+    /// A gear with backlash: its teeth touch on either flank, without bounce.
     fn loose_gear(&mut self, header: &Header, kind: LimitKind, out: &mut Joints) {
         let Header { name, at, .. } = header;
         if !header.schedule.is_always() || header.breaking.is_some() || header.stabilization_time.is_some() {
@@ -93,7 +92,7 @@ impl Context<'_> {
         }
     }
 
-    /// Warns where two wheels whose axles point along `along` are not as far apart as their radii say.
+    /// Warns where the distance of two axles along `along` does not match the radii.
     fn check_distance(
         &mut self,
         (a, b): (Option<usize>, Option<usize>),
@@ -103,7 +102,7 @@ impl Context<'_> {
         at: &str,
         out: &Joints,
     ) {
-        // Where a wheel turns is where a point of it is held; one that nothing holds turns about its own origin.
+        // A wheel rotates about its constrained point, else about its own origin.
         let place = |body: Option<usize>| {
             let held = out.constraints.iter().find_map(|c| match &c.kind {
                 ConstraintKind::PointToPoint { a, .. } if a.body == body => Some(*a),
@@ -163,7 +162,7 @@ impl Context<'_> {
 
     /// Reports rings of gears that cannot turn.
     pub(in super::super) fn check_gear_rings(&mut self, constraints: &[Constraint]) {
-        // A wheel is a body about an axis: one on two crossed axes is two wheels.
+        // A wheel is a body about an axis: a body on two crossed axes is two wheels.
         let mut wheels: Vec<(usize, DVec3)> = Vec::new();
         let gears: Vec<Mesh> = constraints.iter().filter_map(|c| self.mesh(c, &mut wheels)).collect();
         // The trains so far, without rings: a gear whose wheels are in one train already closes a ring.
@@ -187,7 +186,7 @@ impl Context<'_> {
         }
     }
 
-    /// A constraint as two wheels that mesh, if it is that.
+    /// A constraint as two meshing wheels; `None` where it is none.
     fn mesh(&self, constraint: &Constraint, wheels: &mut Vec<(usize, DVec3)>) -> Option<Mesh> {
         let ConstraintKind::Coupling { terms } = &constraint.kind else { return None };
         let [a, b] = terms.as_slice() else { return None };
@@ -195,7 +194,7 @@ impl Context<'_> {
         else {
             return None;
         };
-        // Turns can be compared where both wheels of every gear turn about parallel axles of one frame.
+        // Rotations are comparable where both wheels of every gear rotate about parallel axles of one frame.
         let way = |axis: &Axis| self.pose_of(axis.body).vector(axis.direction);
         let sense = way(u).dot(way(v));
         if f != g || sense.abs() < PARALLEL {
@@ -219,7 +218,7 @@ impl Context<'_> {
     }
 }
 
-/// The gears from one wheel to another, each with the turns that it makes of one.
+/// The gears from one wheel to another, each with its transmission ratio.
 fn route<'m>(train: &[&'m Mesh], from: usize, to: usize) -> Option<Vec<(&'m Mesh, f64)>> {
     let mut waiting = vec![(from, Vec::<(&Mesh, f64)>::new())];
     while let Some((here, way)) = waiting.pop() {
@@ -236,7 +235,7 @@ fn route<'m>(train: &[&'m Mesh], from: usize, to: usize) -> Option<Vec<(&'m Mesh
     None
 }
 
-/// Two wheels (by their numbers) that mesh: `ratio` turns of b for one of a.
+/// Two meshing wheels (by their numbers): `ratio` turns of b for one of a.
 struct Mesh {
     name: String,
     a: usize,
@@ -245,7 +244,7 @@ struct Mesh {
 }
 
 impl Mesh {
-    /// The wheel on the other side of one, and its turns for one turn of that one.
+    /// The other wheel, and its turns for one turn of this one.
     fn across(&self, from: usize) -> Option<(usize, f64)> {
         if from == self.a {
             Some((self.b, self.ratio))

@@ -1,4 +1,4 @@
-//! Bounds: tilts, stops, distances, ratchets.
+//! Resolves limits: tilts, stops, distances, ratchets.
 
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
@@ -10,7 +10,7 @@ use soffio_multibody::articulation::{Anchor, Axis, Limit, LimitKind, Measure};
 
 const DEGREES: f64 = 180.0 / PI;
 
-/// A range in words.
+/// A range as text.
 pub(super) fn range_shown(measure: &Measure, min: f64, max: f64) -> String {
     match measure {
         Measure::Angle { .. } => format!("{:.2}° to {:.2}°", min * DEGREES, max * DEGREES),
@@ -37,7 +37,7 @@ impl Context<'_> {
         self.tilt(name, a, b, limit.max.0, limit.restitution, at)
     }
 
-    /// The axis as it points at rest, fixed in another body.
+    /// The axis in its model direction, fixed in another body.
     fn pointing(&self, axis: Axis, other: Option<usize>) -> Axis {
         let world = self.pose_of(axis.body).vector(axis.direction);
         Axis { body: other, direction: self.pose_of(other).inverse_vector(world) }
@@ -145,7 +145,7 @@ impl Context<'_> {
         if !self.check_range((least, max), None, at, &given.name) {
             return;
         }
-        // A cord drawn taut in the model may be a hair too long.
+        // A cord drawn taut in the model can be slightly too long.
         let slack = super::checks::APART;
         let length = self.start_position(&a).distance(self.start_position(&b));
         if !self.assembles() && !(min - slack..=max + slack).contains(&length) {
@@ -159,7 +159,7 @@ impl Context<'_> {
         out.limits.push(Limit { name: given.name.clone(), kind, restitution: given.restitution });
     }
 
-    /// A bound of a turn or a way; reports a length where an angle belongs, and the reverse.
+    /// A bound of a rotation or a displacement; reports a length in place of an angle, and the reverse.
     pub(super) fn bound(
         &mut self,
         given: Option<Travel>,
@@ -215,7 +215,7 @@ impl Context<'_> {
         out.limits.push(Limit { name: given.name.clone(), kind, restitution: 0.0 });
     }
 
-    /// The turn or way that `of` names, or the turn of a body about an axis of a frame.
+    /// The rotation or displacement that `of` names, or the rotation of a body about an axis of a frame.
     pub(super) fn turn(&mut self, axle: &sidecar::Axle, name: &str, at: &str, out: &Joints) -> Option<Measure> {
         match (&axle.of, &axle.body, axle.axis) {
             (Some(of), None, None) => self.free_measure(of, &format!("{at}/of"), out),

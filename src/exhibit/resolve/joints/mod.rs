@@ -1,8 +1,8 @@
-//! Joints: what the sidecar's constraint tables mean as rows between bodies.
+//! Resolves joints: constraint tables to rows between bodies.
 //!
-//! Each kind has a function here or in a submodule that finds its anchors and axes, and adds its rows under the
-//! table's name (`axle`), or, for a combination, its parts (`axle/nail`, `axle/across-1`). Rest values come from the
-//! poses of the model; whether the rows hold is asked where the bodies start.
+//! Each kind has a function here or in a submodule that finds its anchors and axes. It adds rows under the table's name
+//! (`axle`), or, for a combined joint, under names of its parts (`axle/nail`, `axle/across-1`). Reference values come
+//! from the poses of the model; the rows are checked at the start poses.
 
 mod checks;
 mod combinations;
@@ -30,20 +30,20 @@ use soffio_multibody::articulation::{
 /// Most constraints of an exhibit.
 const MAX_CONSTRAINTS: usize = 4096;
 
-/// All that the constraint tables give.
+/// Results of the constraint tables.
 #[derive(Default)]
 pub(super) struct Joints {
     pub constraints: Vec<Constraint>,
     pub limits: Vec<Limit>,
     pub springs: Vec<Spring>,
-    /// The turn or way that is left free by a hinge or a slider, for tables that point at it with `of`.
+    /// Free coordinates of hinges and sliders, for tables that refer to them with `of`.
     free: Vec<(String, Measure)>,
     names: Vec<String>,
-    /// Names of what does not act; tables may point at them all the same.
+    /// Names of inactive constraints; tables may still refer to them.
     disabled: Vec<String>,
 }
 
-/// What all rows of one table have in common.
+/// Common properties of the rows of one table.
 struct Header<'n> {
     name: &'n str,
     /// JSON pointer of the table.
@@ -95,13 +95,13 @@ impl Context<'_> {
         }
     }
 
-    /// Takes a name; reports one that is taken.
+    /// Registers a name; reports a duplicate.
     fn name(&mut self, name: &str, at: &str, out: &mut Joints) {
         self.unique(name, out.names.iter().any(|taken| taken == name), &format!("{at}/name"));
         out.names.push(name.to_owned());
     }
 
-    /// Notes a table that is switched off.
+    /// Registers a table that is switched off.
     fn enable(&mut self, name: &str, enabled: Option<bool>, at: &str, out: &mut Joints) {
         if enabled == Some(false) {
             self.record_origin(
@@ -115,7 +115,7 @@ impl Context<'_> {
         }
     }
 
-    /// Can these two be held together? One of them must be a body that moves freely.
+    /// Reports bodies that cannot be joined: one of the two must be a body that moves freely.
     fn joinable(&mut self, a: Option<usize>, b: Option<usize>, name: &str, at: &str) -> bool {
         let given = |body: Option<usize>| body.is_none_or(|body| self.is_kinematic(body));
         let message = if a == b && a.is_some() {
@@ -130,7 +130,7 @@ impl Context<'_> {
         false
     }
 
-    /// Adds one constraint: the table's own (`part` empty) or a part of a combination.
+    /// Adds one constraint: the table's own (`part` empty) or a part of a combined joint.
     fn push(
         &mut self,
         out: &mut Joints,
@@ -140,7 +140,7 @@ impl Context<'_> {
         friction: Option<PivotFriction>,
     ) {
         let name = if part.is_empty() { header.name.to_owned() } else { format!("{}/{part}", header.name) };
-        // What acts later may be open until then.
+        // A constraint that acts later may be open until then.
         let schedule = &header.schedule;
         let start_position = schedule.windows.is_empty() || schedule.windows.iter().any(|window| window.start <= 0.0);
         if start_position && schedule.trigger.is_none() {
@@ -166,7 +166,7 @@ impl Context<'_> {
         });
     }
 
-    /// Notes what a combination was expanded into, and when the table's rows act and break.
+    /// Records the parts of a combined joint, and when the table's rows act and break.
     fn record_header_origins(&mut self, header: &Header, kind: &str, out: &Joints, first: usize) {
         let of = format!("constraint {}", header.name);
         let parts: Vec<&str> = out.constraints[first..].iter().map(|c| c.name.as_str()).collect();
@@ -184,7 +184,7 @@ impl Context<'_> {
         })
     }
 
-    /// The free turn or way of the hinge or slider named `of`.
+    /// The free coordinate of the hinge or slider named `of`.
     fn free_measure(&mut self, of: &str, at: &str, out: &Joints) -> Option<Measure> {
         if let Some((_, measure)) = out.free.iter().find(|(name, _)| name == of) {
             return Some(*measure);
@@ -205,7 +205,7 @@ impl Context<'_> {
         self.report(at, Diagnostic::new(codes::UNKNOWN_CONSTRAINT, message).help(help));
     }
 
-    /// A constraint in words.
+    /// A constraint as text.
     fn shown(&self, kind: &ConstraintKind) -> String {
         let axis = |a: &Axis| format!("{} axis {}", self.body_name(a.body), a.direction);
         match kind {
@@ -236,7 +236,7 @@ impl Context<'_> {
         }
     }
 
-    /// A turn or way in words.
+    /// A rotation or displacement as text.
     fn shown_measure(&self, measure: &Measure) -> String {
         match measure {
             Measure::Angle { axis, frame } => format!(
@@ -254,7 +254,7 @@ impl Context<'_> {
         }
     }
 
-    /// Where a constraint, or the combination it is a part of, stands in the sidecar.
+    /// Location of a constraint, or of its combined joint, in the sidecar.
     pub(super) fn place(&self, name: &str) -> String {
         let name = name.split('/').next().unwrap_or(name);
         let kinds = self.source.value.get("constraint").and_then(|c| c.as_object());

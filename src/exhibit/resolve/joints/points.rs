@@ -1,4 +1,4 @@
-//! The basic kinds: points, nails, orientations, planes.
+//! Resolves the basic constraints: points, nails, orientations, planes.
 
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
@@ -68,7 +68,7 @@ impl Context<'_> {
             }
         };
         let (Some(point), Some((plane, normal))) = (point, plane) else { return };
-        // A plane through a node's mark that is given in world axes turns with what carries the mark.
+        // A plane through a marker node with a normal in world axes moves with the body of the marker.
         let world_normal = self.pose_of(normal.body).vector(normal.direction);
         let normal = self.pose_of(plane.body).inverse_vector(world_normal);
         let height = world_normal.dot(self.reference_position(&point) - self.reference_position(&plane));
@@ -104,7 +104,7 @@ impl Context<'_> {
         }
     }
 
-    /// A point of the body named `body`, by the table's key `at`.
+    /// A point of the body named `body`, from the table's key `at`.
     pub(super) fn point_of(&mut self, body: &str, point: Option<&Point>, at: &str, name: &str) -> Option<Anchor> {
         let used_for = format!("constraint \"{name}\"");
         let node = self.node(body, &format!("{at}/body"), &used_for)?;
@@ -129,7 +129,7 @@ impl Context<'_> {
         }
     }
 
-    /// The node whose axes a target counts in; `None` is the world.
+    /// The node that gives the axes of a target; `None` is the world.
     pub(super) fn target_node(&mut self, to: Option<&Target>, at: &str, name: &str) -> Option<usize> {
         match to {
             Some(Target::Node(to)) => self.node(&to.node, &format!("{at}/node"), &format!("constraint \"{name}\"")),

@@ -1,14 +1,14 @@
-//! Rank of the Jacobian at rest: rows that hold again what others hold, and rows that contradict others.
+//! Rank of the constraint Jacobian: finds redundant and contradictory rows.
 //!
-//! A row is a line of J over the twists (v at one common point c, ω) of the bodies that move freely; those that follow
-//! a given motion, and the world, are on the other side of J v = r with r the rate that the row asks for. Lengths are
-//! counted in the figure's own size L, so that angles and lengths can be compared: v/L stands beside ω.
+//! A row of J acts on the twists (v at one common point c, ω) of the freely moving bodies. Kinematic bodies and the
+//! world are on the right side of J v = r, with r the rate that the row requires. Lengths are in units of the
+//! mechanism's size L, so that v/L is comparable with ω.
 //!
-//! The rows are taken one by one against an orthonormal basis of those before (Gram–Schmidt, twice). One that leaves
-//! nothing is redundant; where the same combination of the rates r leaves something at some time, it contradicts.
-//! What hangs in a tree is asked joint by joint; only the rings are taken together.
+//! The rows are orthogonalised one by one (Gram–Schmidt, twice). A row without a remainder is redundant; where the same
+//! combination of the rates r has a remainder at some time, it is contradictory. Joints of a tree are tested one by
+//! one; only loops are tested together.
 //!
-//! Rows that act at different times are not asked together: the test is made anew for each set that acts at once.
+//! Rows that act at different times are tested separately, for each set that acts at once.
 
 use super::super::super::codes;
 use super::super::super::diagnostic::Diagnostic;
@@ -17,23 +17,23 @@ use soffio_math::{DVec3, cos};
 use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind, Measure};
 use soffio_multibody::dynamics::KinematicBody;
 
-/// Sine of the angle below which a row lies in the span of the others: single-precision files give 10⁻⁷.
+/// Sine of the angle below which a row is in the span of the others: single-precision files give 10⁻⁷.
 const DEPENDENT: f64 = 1e-6;
-/// Rates that differ by less are the same, of the size of the rates.
+/// Largest relative difference of equal rates.
 const SAME_RATE: f64 = 1e-4;
-/// Most rows of a ring that are asked together: the cost grows with the cube.
+/// Most rows of a loop that are tested: the cost grows with the cube.
 const MAX_ROWS: usize = 600;
-/// Times at which rates are compared, s: enough to meet any two functions that differ.
+/// Times at which rates are compared, s: enough to distinguish any two functions.
 const TIMES: [f64; 8] = [0.0, 0.31, 0.83, 1.37, 2.29, 3.71, 5.93, 9.61];
 
-/// One row: blocks of the freely moving bodies it touches, and its rate r at [`TIMES`].
+/// A row: blocks of the freely moving bodies, and its rate r at [`TIMES`].
 struct ConstraintRow {
     constraint: usize,
     blocks: Vec<(usize, [DVec3; 2])>,
     rates: [f64; TIMES.len()],
 }
 
-/// What is wrong with a row.
+/// A problem of a row.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Finding {
     Redundant,
@@ -41,7 +41,7 @@ enum Finding {
 }
 
 impl Context<'_> {
-    /// Warns of redundant rows, and reports contradicting ones.
+    /// Warns of redundant rows and reports contradictory ones.
     pub(in super::super) fn check_rank(&mut self, constraints: &[Constraint], drives: &[KinematicBody]) {
         let mut reported: Vec<Vec<usize>> = Vec::new();
         for active in active_sets(constraints) {
@@ -112,7 +112,7 @@ impl Context<'_> {
         }
     }
 
-    /// The rows of the constraints that act, at the poses of the model.
+    /// The rows of the active constraints, at the poses of the model.
     fn rows(&self, constraints: &[Constraint], active: &[usize], drives: &[KinematicBody]) -> Vec<ConstraintRow> {
         let moving = |body: Option<usize>| body.filter(|&b| drives.iter().any(|drive| drive.body == b));
         let points: Vec<DVec3> = self.poses.iter().map(|pose| pose.position).collect();
@@ -121,7 +121,7 @@ impl Context<'_> {
         let size = if size > 0.0 { size } else { 1.0 };
         let mut rows = Vec::new();
         for &index in active {
-            // Each line: which body, force along, moment; and the rate that the constraint itself asks for.
+            // Each side: body, force direction, moment; and the rate of the constraint itself.
             let mut push = |sides: &[(Option<usize>, DVec3, DVec3)], own: &dyn Fn(f64) -> f64| {
                 let mut row = ConstraintRow { constraint: index, blocks: Vec::new(), rates: TIMES.map(own) };
                 for &(body, force, moment) in sides {
@@ -182,7 +182,7 @@ impl Context<'_> {
     }
 }
 
-/// J v of a driven body at a time.
+/// J v of a kinematic body at a time.
 fn kinematic_rate(drives: &[KinematicBody], body: usize, t: f64, center: DVec3, force: DVec3, moment: DVec3) -> f64 {
     let Some(drive) = drives.iter().find(|drive| drive.body == body) else { return 0.0 };
     let now = drive.motion.at(t);
@@ -190,18 +190,18 @@ fn kinematic_rate(drives: &[KinematicBody], body: usize, t: f64, center: DVec3, 
     force.dot(at_center) + moment.dot(now.angular_velocity)
 }
 
-/// The sets of constraints that act fully at the same time.
+/// The sets of constraints that are fully active at the same time.
 fn active_sets(constraints: &[Constraint]) -> Vec<Vec<usize>> {
     let mut times = vec![0.0];
     for schedule in constraints.iter().map(|c| &c.schedule) {
-        // Just after each window is fully there.
+        // Just after each window is fully active.
         times.extend(schedule.windows.iter().map(|w| w.start.max(0.0) + schedule.ramp_in));
     }
     times.sort_by(f64::total_cmp);
     times.dedup();
     let mut sets: Vec<Vec<usize>> = Vec::new();
     for t in times {
-        // A trigger may come at any time: such a constraint counts as there while its windows would be.
+        // A trigger can come at any time: such a constraint counts as active in its windows.
         let full = |c: &Constraint| c.schedule.share(t, c.schedule.trigger.map(|_| 0.0)) >= 1.0;
         let set: Vec<usize> = (0..constraints.len()).filter(|&i| full(&constraints[i])).collect();
         if !sets.contains(&set) {
@@ -211,7 +211,7 @@ fn active_sets(constraints: &[Constraint]) -> Vec<Vec<usize>> {
     sets
 }
 
-/// Rows that have to be asked together: those of one joint of a tree, and those of the rings.
+/// Rows that must be tested together: those of one joint of a tree, and those of the loops.
 fn components(rows: &[ConstraintRow], bodies: usize) -> Vec<Vec<usize>> {
     let mut edges: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
     for (i, row) in rows.iter().enumerate() {
@@ -223,7 +223,7 @@ fn components(rows: &[ConstraintRow], bodies: usize) -> Vec<Vec<usize>> {
         }
     }
     let mut out = Vec::new();
-    // A body with one joint left is a leaf: its joint is asked alone and taken away.
+    // A body with one joint left is a leaf: its joint is tested alone and removed.
     loop {
         let mut joints = vec![0_usize; bodies];
         edges.iter().flat_map(|(ends, _)| ends).for_each(|&body| joints[body] += 1);
@@ -233,7 +233,7 @@ fn components(rows: &[ConstraintRow], bodies: usize) -> Vec<Vec<usize>> {
             None => break,
         }
     }
-    // Rings that share no body are asked apart.
+    // Loops without a common body are tested separately.
     while let Some((mut ends, mut members)) = edges.pop() {
         while let Some(next) = edges.iter().position(|(other, _)| other.iter().any(|body| ends.contains(body))) {
             let (more, rows) = edges.remove(next);
@@ -248,13 +248,13 @@ fn components(rows: &[ConstraintRow], bodies: usize) -> Vec<Vec<usize>> {
     out
 }
 
-/// The rows that depend on those before them.
+/// The rows that depend on earlier ones.
 fn dependent(rows: &[&ConstraintRow]) -> Vec<(usize, Finding)> {
     let mut bodies: Vec<usize> = rows.iter().flat_map(|row| row.blocks.iter().map(|(body, _)| *body)).collect();
     bodies.sort_unstable();
     bodies.dedup();
     let columns = 6 * bodies.len();
-    // Each basis vector carries the rates that belong to it behind its own components.
+    // Each basis vector carries its rates behind its own components.
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut found = Vec::new();
     for (index, row) in rows.iter().enumerate() {
