@@ -1,14 +1,14 @@
-// What every pass shares: the frame's numbers, the moving frames, and how a linear radiance becomes a display value.
+// Common to every pass: the uniforms of a frame, the body frames, and the tone curve.
 //
 // Frames: `world` is metres, +Y up. Vertices are stored in the frame of the body that carries them (`body`), static
 // ones in the world; `world_from_body` holds the rigid motion of each, entry 0 the identity.
 
 struct Lamp {
     position: vec3f,
-    radius: f32,      // of the luminous disc, m
+    radius: f32,      // radius of the luminous disc, m
     color: vec3f,     // radiant intensity on the axis, W/sr per channel
     cos_outer: f32,
-    axis: vec3f,      // unit, where it shines
+    axis: vec3f,      // unit, direction of the light
     cos_inner: f32,
 }
 
@@ -16,7 +16,7 @@ struct Punctual {
     position: vec3f,
     kind: f32,        // 0 directional, 1 point, 2 spot
     color: vec3f,
-    range: f32,       // m, 0 without end
+    range: f32,       // m, 0 unlimited
     axis: vec3f,
     spare: f32,
     cone: vec4f,      // cos inner, cos outer
@@ -65,7 +65,7 @@ struct Globals {
     shadow_near: f32,
     background: vec3f,
     shadow_far: f32,
-    environment_origin: vec3f,       // where the environment cube was taken: the middle of the work
+    environment_origin: vec3f,       // centre of the exhibit, m
     spare: f32,
     irradiance: array<vec4f, 9>,
     lamps: array<Lamp, 2>,
@@ -85,7 +85,7 @@ fn to_world(position: vec3f, body: u32) -> vec3f {
     return vec4f(position, 1.0) * world_from_body[body];
 }
 
-// A vertex' tag: the frame that carries it in the low half, then its ambient visibility and its opacity to lamps.
+// A vertex's tag: the frame that carries it in the low half, then its ambient visibility and its opacity to lamps.
 fn frame_of_tag(tag: u32) -> u32 {
     return tag & 0xffffu;
 }
@@ -102,13 +102,13 @@ fn turn_to_world(direction: vec3f, body: u32) -> vec3f {
     return vec4f(direction, 0.0) * world_from_body[body];
 }
 
-// Point i of n of Vogel's sunflower: equal areas of the unit disc.
+// Point i of n of Vogel's spiral, which divides the unit disc evenly.
 fn vogel(i: f32, n: f32) -> vec2f {
     let angle = i * 2.39996323;
     return sqrt((i + 0.5) / n) * vec2f(cos(angle), sin(angle));
 }
 
-// Two unit vectors that complete n to a frame (Duff et al., JCGT 2017).
+// Two unit vectors that complete n to an orthonormal basis (Duff et al., JCGT 2017).
 fn frame_of(n: vec3f) -> mat3x3f {
     let s = select(-1.0, 1.0, n.z >= 0.0);
     let a = -1.0 / (s + n.z);
@@ -140,7 +140,7 @@ fn aces(c: vec3f) -> vec3f {
     return clamp(m * f, vec3f(0.0), vec3f(1.0));
 }
 
-// AgX (Sobotka), the base look, with Wrensch's sixth-order fit of its contrast curve.
+// AgX (Sobotka), basic contrast, with Wrensch's sixth-order fit of its contrast curve.
 fn agx(c: vec3f) -> vec3f {
     let inset = mat3x3f(0.842479, 0.042328, 0.042376, 0.078434, 0.878469, 0.078434, 0.079224, 0.079166, 0.879143);
     let lowest = -12.47393;
@@ -154,7 +154,7 @@ fn agx(c: vec3f) -> vec3f {
     return pow(max(outset * y, vec3f(0.0)), vec3f(2.2));
 }
 
-// Uniform in −½ … ½ from the pixel alone: the same in every frame, so it does not shimmer (PCG, Jarzynski 2020).
+// Uniform noise in −½ … ½ from the pixel alone: the same in every frame, so it does not shimmer (PCG, Jarzynski 2020).
 fn pixel_noise(pixel: vec2f) -> f32 {
     var h = u32(pixel.x) * 1664525u + u32(pixel.y) * 1013904223u + 12345u;
     h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
@@ -162,7 +162,7 @@ fn pixel_noise(pixel: vec2f) -> f32 {
     return f32(h >> 8u) / 16777216.0 - 0.5;
 }
 
-// Linear radiance to a linear display value; the target encodes it as sRGB.
+// Tone curve: linear radiance to a linear display value, which the target encodes as sRGB.
 fn display(radiance: vec3f, pixel: vec2f) -> vec3f {
     let c = max(radiance * globals.exposure, vec3f(0.0));
     var out: vec3f;

@@ -1,4 +1,4 @@
-// Dust in the light: round soft sprites that add to the picture.
+// Dust particles: round soft sprites, blended additively.
 
 struct Varying {
     @builtin(position) clip: vec4f,
@@ -11,7 +11,7 @@ fn vertex(@builtin(vertex_index) index: u32, @location(0) particle: vec4f) -> Va
     var corners = array<vec2f, 6>(vec2f(-1.0, -1.0), vec2f(1.0, -1.0), vec2f(1.0, 1.0), vec2f(-1.0, -1.0), vec2f(1.0, 1.0), vec2f(-1.0, 1.0));
     let c = corners[index];
     let distance = length(particle.xyz - globals.eye);
-    // Never below a pixel and a half: a sub-pixel speck would blink. What it gains in area it loses in light.
+    // At least a pixel and a half: a sub-pixel particle would flicker. Larger area is compensated by lower brightness.
     let radius = max(globals.dust_radius, 1.5 * globals.pixel_angle * distance);
     let share = globals.dust_radius / radius;
     var out: Varying;

@@ -1,9 +1,9 @@
 // The exhibit's meshes. One vertex buffer holds them all, each vertex with the index of the body that carries it.
 //
-// Glass is drawn in two kinds of passes over what lies behind it: what it lets through multiplies that
-// (`tint_fragment`; the order of panes does not matter), what it reflects is added (`gloss_fragment`).
+// Glass is drawn in two kinds of passes over the background: its transmission multiplies the background
+// (`tint_fragment`; the order of panes does not matter), its reflection is added (`gloss_fragment`).
 
-// Places of the textures in `Material::uv`.
+// Indices of the textures in `Material::uv`.
 const BASE: u32 = 0u;
 const ROUGH: u32 = 1u;
 const NORMAL: u32 = 2u;
@@ -54,12 +54,12 @@ struct Material {
 @group(2) @binding(8) var normal_sampler: sampler;
 @group(2) @binding(9) var occlusion_sampler: sampler;
 @group(2) @binding(10) var emissive_sampler: sampler;
-// Textures of extensions, packed as `details.rs` says.
+// Textures of material extensions, packed as in `details.rs`.
 @group(2) @binding(11) var detail_colors: texture_2d_array<f32>;
 @group(2) @binding(12) var detail_data: texture_2d_array<f32>;
 @group(2) @binding(13) var detail_sampler: sampler;
 
-// A constant of the pipeline: few surfaces have any of them.
+// A pipeline constant: few materials have any of them.
 override DETAILS: bool = false;
 
 struct Vertex {
@@ -85,8 +85,8 @@ struct Varying {
     @location(7) @interpolate(flat) outline: u32,
 }
 
-// Parts of which a pixel shows only a part are left to ribbons: quads along the silhouette of a plate, wide enough for
-// every pixel that it crosses. Of the ribbons that a pixel lies in the nearest edge's draws it, once.
+// Partly covered pixels are drawn by ribbons: quads along the silhouette of a plate, wide enough for every pixel that
+// it crosses. Where ribbons overlap, the one of the nearest edge draws the pixel.
 override OUTLINED: bool = false;
 override RIBBON: bool = false;
 
@@ -106,7 +106,7 @@ fn vertex(v: Vertex) -> Varying {
     return out;
 }
 
-// How far a ribbon reaches to each side, pixels: a pixel that the edge crosses has all its samples within.
+// Half width of a ribbon, pixels: all samples of a pixel that the edge crosses are within it.
 const RIBBON_REACH: f32 = 1.6;
 
 struct Ribbon {
@@ -156,7 +156,7 @@ fn place(v: Varying, texture: u32) -> vec2f {
     return vec2f(dot(first.xyz, at), dot(material.uv[2u * texture + 1u].xyz, at));
 }
 
-// A surface and what it is besides.
+// A surface, and its properties beyond the BRDF.
 struct Seen {
     surface: Surface,
     base: vec4f,
@@ -172,8 +172,8 @@ fn detail_of(v: Varying, texture: u32, layer: u32) -> vec4f {
     return textureSample(detail_data, detail_sampler, place(v, texture), layer);
 }
 
-// A normal n bent by a normal map that lies on the surface as `at` says. Without tangents in the file the frame is that from
-// the derivatives of position and texture (Schüler 2006).
+// A normal n perturbed by a normal map with the transform `at`. Without tangents in the file the frame comes from the
+// derivatives of position and texture coordinates (Schüler 2006).
 fn bent(v: Varying, n: vec3f, bump: vec3f, scale: f32, dp_x: vec3f, dp_y: vec3f, at_x: vec2f, at_y: vec2f) -> vec3f {
     var t = v.tangent.xyz;
     var b = cross(n, t) * v.tangent.w;
@@ -214,7 +214,7 @@ fn seen(v: Varying) -> Seen {
     facing = select(-facing, facing, dot(facing, s.view) > 0.0);
     var n = normalize(v.normal + facing * 1e-6);
     n = select(-n, n, dot(n, facing) >= 0.0);
-    // How fast the normal turns from pixel to pixel, before the normal map adds its own grain.
+    // Rate of change of the normal from pixel to pixel, before the normal map adds its detail.
     let dn_x = dpdx(n);
     let dn_y = dpdy(n);
     let smooth_normal = n;
@@ -225,7 +225,8 @@ fn seen(v: Varying) -> Seen {
     s.facing = facing;
     s.albedo = out.base.rgb;
     s.metallic = clamp(material.metallic * mr.b, 0.0, 1.0);
-    // Curved thin metal would sparkle: widen the lobe by the turn of the normal in the pixel (Tokuyoshi, Kaplanyan 2021).
+    // Curved thin metal would sparkle: widen the lobe by the variation of the normal in the pixel (Tokuyoshi, Kaplanyan
+    // 2021).
     let turn = min(0.5 * (dot(dn_x, dn_x) + dot(dn_y, dn_y)), 0.18);
     let rough = clamp(material.roughness * mr.g, 0.045, 1.0);
     s.roughness = sqrt(sqrt(min(rough * rough * rough * rough + turn, 1.0)));
@@ -280,7 +281,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     return vec4f(display(radiance, v.clip.xy), it.base.a);
 }
 
-// A pixel that the plate covers in part.
+// A pixel that the plate covers partly.
 @fragment
 fn ribbon_fragment(v: Varying) -> @location(0) vec4f {
     let it = seen(v);
@@ -295,7 +296,7 @@ fn ribbon_fragment(v: Varying) -> @location(0) vec4f {
     return vec4f(display(radiance, v.clip.xy), part.part);
 }
 
-// Part of the light behind that one crossing of the surface lets through, per channel.
+// Transmitted fraction of the background in one crossing of the surface, per channel.
 @fragment
 fn tint_fragment(v: Varying) -> @location(0) vec4f {
     let it = seen(v);
@@ -303,7 +304,7 @@ fn tint_fragment(v: Varying) -> @location(0) vec4f {
     let nv = clamp(dot(s.normal, s.view), 0.0, 1.0);
     let x = 1.0 - nv;
     let fresnel = s.f0 + (s.f90 - s.f0) * (x * x * x * x * x);
-    // Way through the wall by Snell's law; where a bent wall is seen along itself, as far as it goes.
+    // Path length through the wall by Snell's law, limited where a curved wall is seen along itself.
     let refracted = sqrt(max(1.0 - (1.0 - nv * nv) / (material.ior * material.ior), 0.05));
     let path_length = (1.0 / refracted) + 4.0 * x * x * x;
     // The base colour is that of a whole pane, two crossings.
@@ -312,7 +313,7 @@ fn tint_fragment(v: Varying) -> @location(0) vec4f {
     return vec4f(through, 1.0);
 }
 
-// What the surface itself sends to the eye.
+// Radiance of the surface itself towards the camera.
 @fragment
 fn gloss_fragment(v: Varying) -> @location(0) vec4f {
     let it = seen(v);

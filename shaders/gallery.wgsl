@@ -1,23 +1,23 @@
-// The gallery around the work: six inner faces of a box. Static light comes from a baked map, lamps are evaluated
-// here, and their shadows on the wall behind the work and on the floor are read from the textures of shadows.wgsl.
+// The gallery around the exhibit: six inner faces of a box. Static light comes from a baked map. Lamps are evaluated
+// here, and their shadows on the wall and the floor are read from the textures of shadows.wgsl.
 
-// Only these two faces receive shadows.
+// The only two faces that receive shadows.
 const WALL: u32 = 0u;
 const FLOOR: u32 = 1u;
 
-// Perceptual; oiled boards, long walked on.
+// Perceptual roughness of worn oiled boards.
 const FLOOR_ROUGHNESS: f32 = 0.42;
 // Width of a board and of the groove between two, m.
 const BOARD: f32 = 0.14;
 const GROOVE: f32 = 0.002;
-// Height of the shadow gap at the foot of the wall, in half heights of the room.
+// Height of the shadow gap at the foot of the wall, in half heights of the gallery.
 const GAP: f32 = 0.004;
 
 struct Varying {
     @builtin(position) clip: vec4f,
     @location(0) position: vec3f,
     @location(1) local: vec3f,                      // −1 … 1 in the box
-    @location(2) @interpolate(flat) face: u32,      // 0 wall, 1 floor, 2 ceiling, 3 left, 4 right, 5 behind the eye
+    @location(2) @interpolate(flat) face: u32,      // 0 wall, 1 floor, 2 ceiling, 3 left, 4 right, 5 behind the camera
 }
 
 @vertex
@@ -43,8 +43,8 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varying {
     return out;
 }
 
-// Cubic B-spline through four bilinear taps (Sigg and Hadwiger 2005): a shadow without the squares of its texels.
-// Places of the four taps, and their weights along both axes.
+// Cubic B-spline filter by four bilinear taps (Sigg and Hadwiger 2005), which hides the texels of a shadow.
+// Positions of the four taps, and their weights along both axes.
 struct Taps {
     near: vec2f,
     far: vec2f,
@@ -81,13 +81,13 @@ fn bicubic_layer(t: texture_2d_array<f32>, at: vec2f, layer: i32) -> f32 {
     return k.g0.y * top + k.g1.y * low;
 }
 
-// Place on a receiving plane's textures.
+// Texture coordinates on a receiving plane.
 fn plane_place(p: vec3f, face: u32) -> vec2f {
     let q = globals.planes[face];
     return vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
 }
 
-// Part of the room's own light that static parts leave.
+// Visible fraction of the gallery's own light under static parts.
 fn open_sky(p: vec3f, face: u32) -> f32 {
     if face > FLOOR {
         return 1.0;
@@ -97,8 +97,8 @@ fn open_sky(p: vec3f, face: u32) -> f32 {
     return select(1.0, open, all(at >= vec2f(0.0)) && all(at <= vec2f(1.0)));
 }
 
-// Tone of the floor's boards, 1 on average: each a little lighter or darker, with a groove between, covered in parts
-// of pixels. They run from the wall to the visitor, so a pixel is narrow across them however flat it is seen.
+// Shade of the floor's boards, 1 on average: each slightly lighter or darker, with a groove between, antialiased by
+// coverage. They run from the wall to the visitor, so a pixel is narrow across them at any slant.
 fn boards(across: f32, pixel: f32) -> f32 {
     let x = across / BOARD;
     let w = clamp(pixel / BOARD, 1e-4, 1.0);
@@ -114,7 +114,7 @@ fn board_tone(board: f32) -> f32 {
     return 1.0 + 0.07 * pixel_noise(vec2f(board + 4096.0, 77.0));
 }
 
-// What the floor's varnish reflects of the room.
+// Reflection of the gallery in the floor's varnish.
 fn floor_gloss(p: vec3f, normal: vec3f) -> vec3f {
     let view = normalize(globals.eye - p);
     let nv = clamp(dot(normal, view), 1e-3, 1.0);
@@ -166,7 +166,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
         radiance += floor_gloss(v.position, normal) * open;
     }
     if v.face != FLOOR {
-        // The walls end a finger above the floor: a dark line, covered in parts of pixels.
+        // The walls end slightly above the floor: a dark gap, antialiased by coverage.
         let away = globals.eye - v.position;
         let pixel = globals.pixel_angle * length(away) / globals.gallery_half.y;
         let above = select(v.local.y + 1.0, 1.0, v.face == 2u);
@@ -175,7 +175,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     return vec4f(display(radiance, v.clip.xy), 1.0);
 }
 
-// Where the scenario wants no room: one colour behind everything, at the far end of the depth range.
+// Scenarios without a gallery: one colour as background, at the far end of the depth range.
 @vertex
 fn backdrop_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
     return vec4f(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0, 0.0, 1.0);

@@ -1,8 +1,8 @@
 // Light on a surface: metallic–roughness BRDF under image, lamps, rectangle and punctual lights.
 //
-// GGX distribution and height-correlated Smith visibility (Heitz 2014), Schlick Fresnel, Lambert below it. What
-// single scattering loses is given back by the factor 1 + F0 (1/E − 1) (Turquin 2019), E from the same table as the
-// split sum (Karis 2013). A sphere of light is met at its point nearest the mirror ray (Karis), an area rectangle too.
+// GGX distribution and height-correlated Smith visibility (Heitz 2014), Schlick Fresnel, Lambert below it. The loss of
+// single scattering is compensated by the factor 1 + F0 (1/E − 1) (Turquin 2019), with E from the table of the split
+// sum (Karis 2013). Sphere and rectangle lights are represented by their point nearest the mirror ray (Karis).
 
 @group(1) @binding(0) var environment: texture_cube<f32>;
 @group(1) @binding(1) var dfg: texture_2d<f32>;
@@ -11,19 +11,19 @@
 @group(1) @binding(4) var wall_shadow: texture_2d<f32>;
 @group(1) @binding(5) var floor_shadow: texture_2d<f32>;
 @group(1) @binding(6) var lightmap: texture_2d_array<f32>;
-@group(1) @binding(7) var ambient: texture_2d_array<f32>;   // what static parts leave of the sky over each plane
+@group(1) @binding(7) var ambient: texture_2d_array<f32>;   // ambient visibility over each plane
 
 override AREA_LIGHT: bool = false;
-// The environment is that of the room's box: reflections are moved to where the mirror ray meets its walls.
+// The environment is that of the gallery's box: reflections are corrected to where the mirror ray hits its walls.
 override GALLERY: bool = false;
-// Some material has a clear coat or a sheen.
+// Pipeline constant: a material has a clear coat or a sheen.
 override LAYERS: bool = false;
 
 struct Surface {
     position: vec3f,
     normal: vec3f,     // shading
-    facing: vec3f,     // geometric, towards the eye
-    view: vec3f,       // unit, to the eye
+    facing: vec3f,     // geometric, towards the camera
+    view: vec3f,       // unit, to the camera
     albedo: vec3f,
     metallic: f32,
     roughness: f32,    // perceptual
@@ -31,7 +31,7 @@ struct Surface {
     bounce: vec3f,     // irradiance from other surfaces
     f0: vec3f,         // of what is not metal
     f90: f32,
-    transmission: f32, // part of the light below the surface that goes through
+    transmission: f32, // transmitted fraction of the refracted light
     sheen: vec3f,
     sheen_roughness: f32,
     coat: f32,
@@ -97,7 +97,8 @@ fn sh_irradiance(n: vec3f) -> vec3f {
     return max(e, vec3f(0.0));
 }
 
-// Where the ray from p meets the room's box, as a direction from where the cube was taken (Lagarde 2012).
+// Where the ray from p hits the gallery's box, as a direction from the cube's origin (parallax correction, Lagarde
+// 2012).
 fn box_projected(p: vec3f, d: vec3f) -> vec3f {
     if !GALLERY {
         return d;
@@ -121,49 +122,49 @@ fn image_light(s: Surface, r: Reflector) -> vec3f {
     let diffuse = r.diffuse * (1.0 - specular_albedo) * (around + s.bounce) / PI;
     // Specular occlusion from the diffuse one (Lagarde and de Rousiers 2014).
     let so = clamp(pow(r.nv + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
-    // Where something stands in the way of the mirror, its mean radiance is seen instead.
+    // Where a part blocks the mirror ray, its mean radiance is seen instead.
     let nearby = s.bounce / (PI * max(1.0 - s.occlusion, 0.05));
     let reflected = globals.env_intensity * prefiltered * so + nearby * (1.0 - so);
     return diffuse + reflected * specular_albedo;
 }
 
-// Place of a world point in the shadow map: texture coordinates, depth, and its distance along the light's axis.
+// Texture coordinates, depth, and distance along the light's axis of a world point in the shadow map.
 fn in_map(p: vec3f) -> vec4f {
     let q = globals.shadow_from_world * vec4f(p, 1.0);
     return vec4f(q.xyz / q.w * vec3f(0.5, -0.5, 1.0) + vec3f(0.5, 0.5, 0.0), q.w);
 }
 
-// How the depth of the plane through p changes over the shadow map, per unit of texture coordinates. A projection maps
-// planes to planes, so two more points of it say so exactly.
+// Gradient of the depth of the plane through p over the shadow map, per unit of texture coordinates. A projection maps
+// planes to planes, so two more points of the plane determine it exactly.
 fn depth_slope(p: vec3f, normal: vec3f, at: vec4f, reach: f32) -> vec2f {
     let frame = frame_of(normal);
     let x = in_map(p + frame[0] * reach).xyz - at.xyz;
     let y = in_map(p + frame[1] * reach).xyz - at.xyz;
     let area = x.x * y.y - x.y * y.x;
-    // Seen from the light edge on: no slope says anything.
+    // Edge-on from the light the gradient is undefined.
     return select(vec2f(x.z * y.y - y.z * x.y, y.z * x.x - x.z * y.x) / area, vec2f(0.0), abs(area) < 1e-12);
 }
 
-// Depth as `map_fragment` wrote it.
+// Depth in the encoding of `map_fragment`.
 fn blocker_depth(at: vec2f, size: vec2f) -> f32 {
     let bytes = textureLoad(blocker_map, clamp(vec2i(at * size), vec2i(0), vec2i(size) - 1), 0).xyz;
     return dot(bytes, vec3f(16711680.0, 65280.0, 255.0)) / 16777215.0;
 }
 
-// Does what the map shows beside a receiver, at distance b, lie between it and the light? With two texels to spare.
+// Is a blocker beside the receiver, at distance b, between the receiver and the light? With a margin of two texels.
 fn in_cone(off: vec2f, at: vec4f, b: f32, spread: f32, size: vec2f) -> bool {
     let inside = all(abs(at.xy + off - 0.5) < vec2f(0.5));
     return inside && length(off) <= 1.25 * spread * max(at.w - b, 0.0) / b + 2.0 / size.x;
 }
 
-// Fraction of the shadow-casting light that reaches p: blocker search, then a filter as wide as the penumbra
-// (Fernando 2005), both with fixed taps so that nothing shimmers. Each tap is compared with the depth of the receiver's
-// own plane there, so that a wide filter does not find the wall in its own shadow, and what is found must lie in the cone
-// from the receiver to the light: the floor below a wall does not.
+// Percentage-closer soft shadows: the fraction of the shadow-casting light that reaches p. Blocker search, then a
+// filter as wide as the penumbra (Fernando 2005), both with fixed taps so that nothing shimmers. Each tap is compared
+// with the depth of the receiver's own plane there, so that a wide filter does not shade a wall by itself. A blocker
+// must be in the cone from the receiver to the light.
 fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let distance = length(towards);
     let slope = sqrt(clamp(1.0 - pow(dot(facing, towards) / distance, 2.0), 0.0, 1.0));
-    // One and a half texels along the normal keep a lit surface from shading itself.
+    // An offset of one and a half texels along the normal keeps a lit surface from shading itself.
     let texel = globals.shadow_texel * distance;
     let side = select(-1.0, 1.0, dot(facing, towards) > 0.0);
     let above = p + facing * side * texel * (1.0 + 2.0 * slope);
@@ -174,7 +175,7 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
         return 1.0;
     }
     let size = vec2f(textureDimensions(blocker_map));
-    // Size of the light as seen in texture coordinates from a receiver at depth w, per unit of (w − b) / b.
+    // Size of the light in texture coordinates as seen from a receiver at depth w, per unit of (w − b) / b.
     let spread = globals.shadow_radius / (globals.shadow_texel * size.x * at.w);
     // No blocker is nearer to the light than the near plane.
     let search = max(spread * (at.w - near) / near, 1.5 / size.x);
@@ -184,7 +185,7 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     let tilt = depth_slope(above, facing, at, 8.0 * texel);
     var blockers = 0.0;
     var depth = 0.0;
-    // The number of taps is a uniform so that no driver unrolls the loops: that made shaders slow to build.
+    // The number of taps is a uniform so that drivers do not unroll the loops, which made shaders slow to build.
     let taps = globals.shadow_taps;
     for (var i = 0.0; i < taps; i += 1.0) {
         let off = search * vogel(i, taps);
@@ -200,7 +201,7 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
     }
     let blocker = depth / blockers;
     let width = clamp(spread * (at.w - blocker) / blocker, 1.2 / size.x, search);
-    // In the penumbra every tap is one of its steps; few places are in one.
+    // In the penumbra each tap is one step of shade; few pixels are in one.
     let steps = 3.0 * taps;
     var lit = 0.0;
     for (var i = 0.0; i < steps; i += 1.0) {
@@ -237,7 +238,7 @@ fn area_light(s: Surface, r: Reflector, alpha: f32) -> vec3f {
     let f = rectangle_vector(s.position);
     let size = max(length(f), 1e-6);
     let towards = -f / size * sign(dot(f, s.position - globals.area_center));
-    // A rectangle partly below the horizon, as a sphere of the same form factor (Hill and Heitz 2016).
+    // A rectangle partly below the horizon is replaced by a sphere of the same form factor (Hill and Heitz 2016).
     let c = dot(s.normal, towards);
     let diffuse = size * max((c + size / PI) / (1.0 + size / PI), 0.0);
     // Point of the rectangle nearest the mirror ray.
@@ -265,7 +266,7 @@ fn punctual_light(s: Surface, r: Reflector, alpha: f32, i: u32) -> vec3f {
         l = away * inverseSqrt(d2);
         strength = 1.0 / d2;
         if light.range > 0.0 {
-            // KHR_lights_punctual's window, so that the light ends at its range.
+            // Window function of KHR_lights_punctual: the light ends at its range.
             strength *= clamp(1.0 - d2 * d2 / pow(light.range, 4.0), 0.0, 1.0);
         }
         if light.kind > 1.5 {
@@ -290,7 +291,7 @@ fn lamp_light(s: Surface, r: Reflector, alpha: f32, i: u32) -> vec3f {
     return lamp_beam(i, s.position) * (r.diffuse / PI * nl + specular(s, r, normalize(near), alpha, widened));
 }
 
-// Part of the light with the shadow map that reaches a surface.
+// Visible fraction of the shadow-casting light at a surface.
 fn key_light_at(s: Surface) -> f32 {
     let light = select(globals.lamps[0].position, globals.area_center, AREA_LIGHT);
     return shadow(s.position, s.facing, light - s.position);
@@ -306,13 +307,13 @@ fn sheen(s: Surface, r: Reflector, l: vec3f) -> vec3f {
     return s.sheen * (d * nl / (4.0 * max(nl + r.nv - nl * r.nv, 1e-3)));
 }
 
-// Radiance towards the eye; `lit` is the part of the shadow-casting light that arrives.
+// Radiance towards the camera; `lit` is the visible fraction of the shadow-casting light.
 fn shade(s: Surface, lit: f32) -> vec3f {
     if !LAYERS {
         return shade_layer(s, lit);
     }
     let r = reflector(s);
-    // What the sheen takes is missing below it; so is what the coat reflects.
+    // Sheen and coat reduce the light that reaches the layers below.
     var sum = shade_layer(s, lit) * (1.0 - max(s.sheen.r, max(s.sheen.g, s.sheen.b)) * r.sheen_albedo);
     sum += globals.env_intensity * s.sheen * (r.sheen_albedo * s.occlusion / PI) * sh_irradiance(s.normal);
     for (var i = 0u; i < globals.lamp_count; i++) {
@@ -330,7 +331,7 @@ fn shade(s: Surface, lit: f32) -> vec3f {
     return sum * (1.0 - s.coat * (0.04 * above.ab.x + above.ab.y)) + s.coat * shade_layer(coat, lit);
 }
 
-// One layer of it.
+// One layer of glass.
 fn shade_layer(s: Surface, lit: f32) -> vec3f {
     let r = reflector(s);
     let alpha = max(s.roughness * s.roughness, 0.002);

@@ -1,22 +1,22 @@
-// Part of a pixel that lies inside a silhouette, in closed form.
+// Coverage of a pixel by the inside of a silhouette, in closed form.
 //
-// By Green's theorem the area of a closed figure within a box is a sum over its edges: each adds (or, running back, takes
-// away) what lies to the right of it within the box. With the pixel as the box 0 … 1, an edge cut to its rows runs from
-// (xa, ya) to (xb, yb), and the area to its right is (yb − ya) (1 − m), where m is the mean of x held within 0 … 1: with
-// G(x) = ∫ clamp(x, 0, 1) dx, m = (G(xb) − G(xa)) / (xb − xa).
+// By Green's theorem the area of a closed polygon within a box is a sum over its edges: each adds (or, running back,
+// subtracts) the area to its right within the box. With the pixel as the box 0 … 1, an edge clipped to its rows runs
+// from (xa, ya) to (xb, yb). The area to its right is (yb − ya) (1 − m), where m is the mean of x clamped to 0 … 1:
+// with G(x) = ∫ clamp(x, 0, 1) dx, m = (G(xb) − G(xa)) / (xb − xa).
 
-// Per plate a texel (first edge, number of edges), then edges as both ends in pixels.
+// For each plate a texel (first edge, number of edges), then edges as both ends in pixels.
 @group(1) @binding(8) var contours: texture_2d<f32>;
 
 const CONTOUR_ROW: u32 = 256u;
-// Pixels that are covered more are drawn by the mesh; a ribbon draws a little beyond that, so that rounding leaves none out.
+// Pixels with more coverage are drawn by the mesh; ribbons draw slightly more, so that rounding leaves none out.
 const WHOLE: f32 = 0.999;
 const WHOLE_OF_RIBBON: f32 = 0.9995;
 
 struct Cover {
-    // Covered part of the pixel; 1 for a plate without a silhouette.
+    // Coverage of the pixel; 1 for a plate without a silhouette.
     part: f32,
-    // The edge nearest to the pixel's middle.
+    // The edge nearest to the pixel's centre.
     nearest: u32,
 }
 
@@ -50,7 +50,7 @@ fn distance_squared(a: vec2f, b: vec2f) -> f32 {
     return dot(foot, foot);
 }
 
-// `middle`: of the pixel.
+// `middle`: centre of the pixel.
 fn cover(middle: vec2f, plate: u32) -> Cover {
     let head = contour(plate);
     let first = u32(head.x);

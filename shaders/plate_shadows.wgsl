@@ -1,14 +1,14 @@
-// Shadows of flat plates on wall and floor, in closed form: how much of a lamp's disc lies behind a plate.
+// Analytic soft shadows of flat plates on wall and floor: the fraction of a lamp's disc that a plate covers.
 //
-// From a receiver the plate's rim is projected through its points onto the lamp's plane, where the lamp is the unit disc.
-// By Green's theorem the area that a closed line shares with the disc is a sum over its edges: twice the area of the
-// triangle of an edge and the disc's centre, as far as it lies in the disc, is the cross product of the edge's part
-// inside and the angle that its parts outside span. Both angles of an edge have one sign and are together below π, so one
-// arctangent of a product of complex numbers finds them.
+// From a receiver the plate's rim is projected onto the lamp's plane, where the lamp is the unit disc. By Green's
+// theorem the common area of a closed line and the disc is a sum over its edges. Twice the area of the triangle of an
+// edge and the disc's centre within the disc is the cross product of the edge's part inside plus the angle of its parts
+// outside. Both angles of an edge have one sign and are together below π, so one arctangent of a product of complex
+// numbers gives them.
 //
-// Plates are blended as 1 − (1 − a)(1 − b) with what is there: `sheets.rs` says what that means.
+// Plates are blended as 1 − (1 − a)(1 − b); `plate_shadows.rs` explains the approximation.
 
-// Points along rims, world; w is 1 where a line begins.
+// Points along rims, world; w is 1 at the first point of a line.
 @group(1) @binding(0) var rims: texture_2d<f32>;
 
 const RIM_ROW: u32 = 256u;
@@ -35,17 +35,17 @@ fn complex_product(a: vec2f, b: vec2f) -> vec2f {
     return vec2f(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// The second as seen from the first: its argument is the angle between them.
+// The second vector relative to the first: its argument is the angle between them.
 fn turn_between(a: vec2f, b: vec2f) -> vec2f {
     return vec2f(dot(a, b), a.x * b.y - a.y * b.x);
 }
 
-// Twice the signed area that the triangle of the unit disc's centre, a and b has in the disc.
+// Twice the signed area of the triangle of the unit disc's centre, a and b within the disc.
 fn disc_wedge(a: vec2f, b: vec2f) -> f32 {
     let edge = b - a;
     let squared = max(dot(edge, edge), 1e-20);
     let turn = a.x * edge.y - a.y * edge.x;
-    // Where the edge enters the disc and leaves it; both the same where it passes by.
+    // Where the edge enters and leaves the disc; equal where it misses.
     let half = sqrt(max(squared - turn * turn, 0.0)) / squared;
     let nearest = -dot(a, edge) / squared;
     let enters = clamp(nearest - half, 0.0, 1.0);
@@ -61,7 +61,7 @@ fn plate_shadow_fragment(v: Shaded) -> @location(0) vec4f {
     let lamp = globals.lamps[v.rim.z];
     let frame = frame_of(lamp.axis);
     let to_lamp = lamp.position - v.position;
-    // Both against the axis: what is behind the lamp has no light to lose.
+    // Both relative to the axis: points behind the lamp receive no light.
     let depth = min(dot(to_lamp, lamp.axis), -1e-6);
     let middle = vec2f(dot(to_lamp, frame[0]), dot(to_lamp, frame[1]));
     var before = vec2f(0.0);
@@ -69,7 +69,7 @@ fn plate_shadow_fragment(v: Shaded) -> @location(0) vec4f {
     for (var i = v.rim.x; i < v.rim.x + v.rim.y; i++) {
         let point = textureLoad(rims, vec2u(i % RIM_ROW, i / RIM_ROW), 0);
         let off = point.xyz - v.position;
-        // What reaches behind the receiver is seen far aside.
+        // Points behind the receiver are projected far outside.
         let part = max(dot(off, lamp.axis) / depth, 1e-3);
         let at = (vec2f(dot(off, frame[0]), dot(off, frame[1])) / part - middle) / lamp.radius;
         sum += select(disc_wedge(before, at), 0.0, point.w > 0.5);

@@ -1,4 +1,5 @@
-// The mean of four samples. Software Vulkan resolves this way five times as fast as by its fixed function.
+// Multisample resolve: the mean of four samples. Software Vulkan is five times as fast this way as by its fixed
+// function.
 
 @group(0) @binding(0) var samples: texture_multisampled_2d<f32>;
 

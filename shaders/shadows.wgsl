@@ -1,15 +1,15 @@
-// Soft shadows on the wall and the floor, as textures of the blocked fraction of each lamp (red: lamp 0, green: 1).
+// Soft shadows on the wall and the floor, as textures of the covered fraction of each lamp (red: lamp 0, green: 1).
 //
-// Flat plates: closed form, in sheets.wgsl.
+// Flat plates: analytic, in plate_shadows.wgsl.
 //
-// Other meshes: every triangle is projected onto the plane from N points of each lamp's disc, 1/N added per point. Within
-// one point a texel must count once, however many triangles cover it: each point draws at its own depth, nearer than
-// the points before it, so its first triangle passes `less` and its others fail.
+// Other meshes: every triangle is projected onto the plane from N points of each lamp's disc, each of which adds 1/N.
+// For one point a texel must count once, however many triangles cover it. So each point draws at its own depth, nearer
+// than the points before it: its first triangle passes `less` and its others fail.
 //
-// Wires: closed form. From a receiver x the wire is a strip across the lamp's disc of radius R; with its axis at
-// offset c from the disc's centre and half-width w (both magnified onto the lamp), it blocks F((c+w)/R) − F((c−w)/R),
-// where F(t) = ½ + (t √(1−t²) + asin t)/π is the part of a unit disc left of t. The ends are treated alike along the
-// axis. Wires add to what is blocked; collinear segments so meet without a seam.
+// Wires: analytic. From a receiver x the wire is a strip across the lamp's disc of radius R. With its axis at offset c
+// from the disc's centre and half-width w (both magnified onto the lamp), it blocks F((c+w)/R) − F((c−w)/R), where F(t)
+// = ½ + (t √(1−t²) + asin t)/π is the part of a unit disc left of t. The ends are treated likewise along the axis.
+// Wires add up; collinear segments meet without a seam.
 
 override PLANE: u32 = 0u;
 
@@ -31,7 +31,7 @@ fn mesh_vertex(@location(0) position: vec3f, @location(5) tag: u32, @builtin(ins
     let frame = frame_of(lamp.axis);
     let light = lamp.position + frame[0] * disc.x + frame[1] * disc.y - plane.origin;
     let p = to_world(position, frame_of_tag(tag)) - plane.origin;
-    // Height of the light and of the point over the plane; what is behind the plane throws its shadow on its own foot.
+    // Height of the light and of the point over the plane; points behind the plane cast their shadow at their own foot.
     let d = dot(light, plane.normal);
     let h = max(dot(p, plane.normal), 0.0);
     let size = vec2f(plane.width, plane.height);
@@ -97,7 +97,7 @@ fn disc_part(t: f32) -> f32 {
     return 0.5 + (x * sqrt(max(1.0 - x * x, 0.0)) + asin(x)) / PI;
 }
 
-// How far a unit disc with this axis reaches along a direction.
+// Extent of a unit disc with this axis along a direction.
 fn seen_part(direction: vec3f, axis: vec3f) -> f32 {
     let off = dot(direction, axis);
     return sqrt(max(1.0 - off * off, 0.05));
@@ -123,12 +123,12 @@ fn wire_fragment(v: Strip) -> @location(0) vec4f {
     let t = max(0.5 * (ta + tb), 1e-4);
     let ea = dot(v.a - v.position, along) / max(ta, 1e-4);
     let eb = dot(v.b - v.position, along) / max(tb, 1e-4);
-    // Where the axis crosses the line of sight its distance along it decides the magnification.
+    // Where the axis crosses the view ray, its distance along it determines the magnification.
     let s = clamp(-ea / select(eb - ea, 1e-6, abs(eb - ea) < 1e-6), 0.0, 1.0);
     let t_cross = max(mix(ta, tb, s), 1e-4);
     let c = dot(v.a - v.position, side) / t_cross;
     let w = v.radius / t_cross;
-    // The disc is seen aslant, as an ellipse; a strip parts that as it parts a disc of the ellipse's reach across.
+    // The disc is seen as an ellipse; a strip divides it like a disc of the ellipse's extent across the strip.
     let across_disc = lamp.radius * seen_part(side, lamp.axis);
     let along_disc = lamp.radius * seen_part(along, lamp.axis);
     let across = disc_part((c + w) / across_disc) - disc_part((c - w) / across_disc);
@@ -136,13 +136,13 @@ fn wire_fragment(v: Strip) -> @location(0) vec4f {
     return vec4f(lamp_channel(v.lamp) * across * ends, 0.0, 1.0);
 }
 
-// The shadow map of the light that shades the work itself.
+// The shadow map of the light that shades the exhibit itself.
 @vertex
 fn map_vertex(@location(0) position: vec3f, @location(5) tag: u32) -> @builtin(position) vec4f {
     return globals.shadow_from_world * vec4f(to_world(position, frame_of_tag(tag)), 1.0);
 }
 
-// The depth once more, in three bytes of a colour: not every driver lets a shader read a depth texture.
+// The depth as three bytes of a colour: not every driver lets a shader read a depth texture.
 @fragment
 fn map_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
     let whole = floor(position.z * 16777215.0);

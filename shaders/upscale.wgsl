@@ -1,4 +1,4 @@
-// A smaller picture stretched over the target, smoothly.
+// Smooth upscaling of a smaller picture to the target.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 @group(0) @binding(1) var smooth_sampler: sampler;

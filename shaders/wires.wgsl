@@ -1,9 +1,9 @@
-// Wires as capsules in closed form: a quad that faces the eye, and per pixel the exact distance of the sight line
-// from the axis.
+// Wires as analytic capsules: a quad that faces the camera, and for each pixel the exact distance of the view ray from
+// the axis.
 //
-// Below a pixel the radius is held at half a pixel and the opacity lowered in proportion (phone-wire antialiasing,
-// Persson 2012), so a wire of any width is an unbroken line of the right mean darkness. Segments of one wire are cut
-// by the planes that bisect their joints: no pixel of a bend is blended twice.
+// Below a pixel the radius is clamped to half a pixel and the opacity lowered in proportion (phone-wire antialiasing,
+// Persson 2012), so a wire of any width is an unbroken line of the right mean darkness. Segments of one wire are cut by
+// the bisecting planes of their joints, so that no pixel of a bend is blended twice.
 
 struct Varying {
     @builtin(position) clip: vec4f,
@@ -32,8 +32,8 @@ fn vertex(
     let ray = end - globals.eye;
     let sideways = cross(unit, ray);
     let side = sideways * inverseSqrt(max(dot(sideways, sideways), 1e-20));
-    // The quad holds the wire and one pixel more on each side, and reaches over a joint as far as a bend may need: in
-    // the picture, so that a wire that points at the eye has room too.
+    // The quad covers the wire and one more pixel on each side, and overlaps a joint as far as a bend may need, in
+    // picture space, so that a wire that points at the camera has space too.
     let reach = a.w + 1.5 * globals.pixel_angle * length(ray);
     let beyond = cross(ray, side);
     let ahead = beyond * (sign(dot(beyond, unit)) * inverseSqrt(max(dot(beyond, beyond), 1e-20)));
@@ -46,7 +46,7 @@ fn vertex(
     out.cut_a = cut_a;
     out.cut_b = cut_b;
     out.clip = globals.clip_from_world * vec4f(p, 1.0);
-    // As deep as the front of the round and not as its axis: a rod that lies half in a plate shows whole.
+    // The depth is that of the capsule's front, not of its axis: a rod that is half inside a plate is fully visible.
     let front = globals.clip_from_world * vec4f(p - normalize(p - globals.eye) * a.w, 1.0);
     out.clip.z = front.z / front.w * out.clip.w;
     return out;
@@ -57,7 +57,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     let axis = v.b.xyz - v.a.xyz;
     let unit = axis * inverseSqrt(max(dot(axis, axis), 1e-20));
     let ray = normalize(v.position - globals.eye);
-    // Common perpendicular of sight line and axis, and where on the axis it stands.
+    // Common perpendicular of view ray and axis, and its position along the axis.
     let across = cross(unit, ray);
     let sine2 = max(dot(across, across), 1e-8);
     let side = across * inverseSqrt(sine2);
@@ -65,13 +65,13 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     let offset = dot(from_a, side);
     let cosine = dot(unit, ray);
     let on_axis = v.a.xyz + unit * ((dot(from_a, unit) - cosine * dot(from_a, ray)) / sine2);
-    // Metres of offset from one pixel to the next; exact off the picture's middle too.
+    // Offset from one pixel to the next, m; exact outside the picture's centre too.
     let pixel = max(length(vec2f(dpdx(offset), dpdy(offset))), 1e-9);
     let r = v.a.w / pixel;
     let wide = max(r, 0.5);
     var alpha = clamp(wide + 0.5 - abs(offset) / pixel, 0.0, 1.0) * r / wide;
-    // Where the sight line enters the round, before it is nearest to the axis. A joint is cut there, so that both
-    // segments judge by the same point; an end shows where any of the way through the round lies within it.
+    // Where the view ray enters the capsule, before its point nearest to the axis. A joint is cut there, so that both
+    // segments decide by the same point; an end is visible where any of the path through the capsule is within it.
     let back = sqrt(max(v.a.w * v.a.w - offset * offset, 0.0) / sine2);
     let nearest = (cosine * dot(from_a, unit) - dot(from_a, ray)) / sine2;
     let enters = globals.eye + ray * (nearest - back);
@@ -93,7 +93,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     s.albedo = v.color.rgb;
     s.metallic = v.b.w;
     s.roughness = max(v.color.w, 0.15);
-    // Across the round: one normal where the pixel is small against the wire, the mean of three where it is not.
+    // Across the capsule: one normal where the pixel is small relative to the wire, the mean of three where it is not.
     let lit = key_light_at(s);
     let normals = select(3.0, 1.0, r > 1.5);
     let first = select(-0.66, clamp(offset / v.a.w, -0.98, 0.98), r > 1.5);

@@ -23,9 +23,9 @@ const DEPTH: f64 = 12.0 * MM;
 /// Segments of a moon's outline.
 const ROUND: usize = 72;
 
-/// A branch, the uppermost first. Its moon's diameter (mm, of the full disc) and mass (g); diameter (mm) of the wire;
-/// its length from end to end and rise of the moon's end (mm); directions of the branch and the moon (rad); length of
-/// the moon's stem (mm).
+/// A branch, the uppermost first. Its moon's diameter (mm, of the full disc) and mass (g). Diameter, length from end to
+/// end, and rise of the moon's end of the wire (mm). Directions of the branch and the moon (rad). Length of the moon's
+/// stem (mm).
 #[rustfmt::skip] // rows of a drawing
 const BOUGHS: [[f64; 8]; 11] = [
     [220.0, 102.6,   2.4, 692.1,  46.0,  0.10,  0.16,  34.0],

@@ -85,7 +85,7 @@ fn joints(out: &mut String, mobile: &Mobile, point: &str) {
 }
 
 /// Idle damping of a mobile.
-const CALM: &str = "# Whoever blows next shall see their own breath, not the swing of the last one: left alone, it comes to rest.\n\
+const CALM: &str = "# Idle damping brings the mobile to rest, so that the next visitor sees the effect of their own breath.\n\
                     [wind.calm]\nafter = \"3 s\"\ntime = \"2.5 s\"\n\n";
 
 /// Collider, wind surface and sound of a plate.

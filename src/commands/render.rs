@@ -71,8 +71,14 @@ pub fn run(args: Args) -> Outcome {
         ImageRenderer::new(&exhibit, adjust).map_err(Failure::of_picture)?.with_supersampling(SUPERSAMPLING);
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
-    let frame =
-        FrameInput { poses: &snapshot.poses, dust: &snapshot.dust_particles, view, size, exposure, time: snapshot.time };
+    let frame = FrameInput {
+        poses: &snapshot.poses,
+        dust: &snapshot.dust_particles,
+        view,
+        size,
+        exposure,
+        time: snapshot.time,
+    };
     let picture = renderer.draw(&frame).map_err(Failure::of_picture)?;
     write_png(&picture, &args.output).map_err(Failure::input)
 }

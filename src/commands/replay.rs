@@ -73,8 +73,8 @@ fn again(outputs: &Outputs, part: RecordSection, stop: &AtomicBool) -> Result<Su
     let play = Play {
         settings: part.begin.settings,
         seconds: part.steps() as f64 / STEPS_PER_SECOND as f64,
-        room: room()?,
-        told: Some(part),
+        reverb: room()?,
+        recorded: Some(part),
         ..Play::default()
     };
     let progress = progress_bar((play.seconds * STEPS_PER_SECOND as f64).round() as u64);

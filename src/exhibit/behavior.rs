@@ -46,7 +46,7 @@ impl Default for BreathTuning {
 
 /// Idle damping: brings an exhibit to rest when nobody blows, so that the next breath is visible.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct IdleDamping {
+pub struct IdleDampingSpec {
     /// Delay after the last breath or grab until the damping begins, s.
     pub after: f64,
     /// Time constant of free motion at first, s. Oscillations decay half as fast, and the damping grows stronger with

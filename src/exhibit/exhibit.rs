@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::behavior::{BreathTuning, IdleDamping, Motion, SoundBinding, TouchPermission};
+use super::behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, TouchPermission};
 use super::bodies::{Body, Material, MaterialPair, Wire};
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
@@ -81,7 +81,7 @@ pub struct Exhibit {
     /// How a breath acts on it.
     pub breath: BreathTuning,
     /// Idle damping; `None` leaves it to come to rest by itself.
-    pub idle_damping: Option<IdleDamping>,
+    pub idle_damping: Option<IdleDampingSpec>,
     /// Level of all sounds, dB; already contained in the gains of the instruments.
     pub level_db: f64,
     /// Sounding bodies.

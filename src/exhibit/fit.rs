@@ -3,8 +3,8 @@
 //!
 //! A shape is a convex core with a sphere swept over it (`collision::Shape`). Sheet metal is the flat polygon of its
 //! mid-surface, with half its thickness as the sphere's radius. Its outline is the rim of one face, simplified (Douglas
-//! and Peucker 1973), cut into triangles by ear clipping (Meisters 1975), and merged where the union stays convex
-//! (Hertel and Mehlhorn 1983: at most four times the least number of pieces). Holes are filled.
+//! and Peucker 1973) and cut into triangles by ear clipping (Meisters 1975). They are merged where the union stays
+//! convex (Hertel and Mehlhorn 1983: at most four times the least number of pieces). Holes are filled.
 
 use std::collections::BTreeMap;
 

@@ -332,13 +332,13 @@ impl Comparison {
         let low = values().fold(high, f64::min);
         // Magnitudes begin at zero, energies at their least value.
         let low = if low >= 0.0 && low < 0.5 * high { 0.0 } else { low };
-        let room = 0.05 * (high - low).max(MIN_CHART_RANGE);
+        let margin = 0.05 * (high - low).max(MIN_CHART_RANGE);
         let last = self.samples.last().map_or(1.0, |row| row.t).max(MIN_CHART_RANGE);
         let top = 130.0 + 262.0 * index as f64;
         let chart = Chart {
             place: [80.0, top, 1080.0, 185.0],
             x: Axis::linear(0.0, last),
-            y: Axis::linear(if low == 0.0 { 0.0 } else { low - room }, (high + room).max(low + least)),
+            y: Axis::linear(if low == 0.0 { 0.0 } else { low - margin }, (high + margin).max(low + least)),
         };
         chart.frame(canvas, title, "s", unit);
         let mut x = 260.0;

@@ -46,7 +46,7 @@ pub fn run(exhibit: &Arc<Exhibit>, settings: Settings, folder: &Path, stop: &Ato
         seconds: breath.as_ref().map_or(0.0, WavFeed::duration) + TAIL,
         breath,
         audio: Some(file("wav")),
-        room: Some(ReverbSpec::GALLERY),
+        reverb: Some(ReverbSpec::GALLERY),
         trace: Some(file("csv")),
         fps: DEFAULT_FPS,
         ..Play::default()

@@ -62,8 +62,8 @@ pub fn loads(exhibit: &Exhibit, seeds: u64, breath_seconds: f64) -> Vec<StressLo
 
 /// Indices of the bodies that can be grabbed.
 fn movable(exhibit: &Exhibit) -> Vec<usize> {
-    let driven = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
-    (0..exhibit.bodies.len()).filter(|&body| !driven(body)).collect()
+    let is_kinematic = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
+    (0..exhibit.bodies.len()).filter(|&body| !is_kinematic(body)).collect()
 }
 
 /// An exhibit under a load.

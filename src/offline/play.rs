@@ -21,7 +21,7 @@ use soffio_simulation::{
 use soffio_sound::ReverbSpec;
 
 /// Steps between two measurements of the joint error, which costs a thirtieth of a clock's step.
-const ABORT_CHECK_STEPS: u64 = STEPS_PER_SECOND / 30;
+const JOINT_ERROR_STEPS: u64 = STEPS_PER_SECOND / 30;
 
 /// What to run, and which outputs to write.
 #[derive(Default)]
@@ -35,7 +35,7 @@ pub struct Play {
     /// Script of a visitor's actions.
     pub script: Option<Script>,
     /// Input of a recorded run, in place of breath, aim, script and picture shape.
-    pub told: Option<RecordSection>,
+    pub recorded: Option<RecordSection>,
     /// Motion mode where the script sets none.
     pub mode: Option<MotionMode>,
     /// Duration, s.
@@ -45,7 +45,7 @@ pub struct Play {
     /// Path of the sound file, stereo 48 kHz float.
     pub audio: Option<PathBuf>,
     /// Reverb; `None` is the open air.
-    pub room: Option<ReverbSpec>,
+    pub reverb: Option<ReverbSpec>,
     /// Without reverb and limiter?
     pub dry: bool,
     /// Path of the trace, CSV.
@@ -126,11 +126,11 @@ pub fn run(
     if on_frame.is_none() {
         simulation.disable_dust();
     }
-    let mut soundtrack = Soundtrack::new(exhibit, settings.seed, play.room.as_ref(), play.dry, play.audio.as_deref())
+    let mut soundtrack = Soundtrack::new(exhibit, settings.seed, play.reverb.as_ref(), play.dry, play.audio.as_deref())
         .map_err(PlayError::Output)?;
     let mut trace = play.trace.as_ref().map(|path| TraceWriter::create(path, exhibit, play.fps)).transpose()?;
     let mut events = play.events.as_ref().map(|path| EventWriter::create(path, exhibit)).transpose()?;
-    let steps = play.told.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, RecordSection::steps);
+    let steps = play.recorded.as_ref().map_or((seconds * STEPS_PER_SECOND as f64).round() as u64, RecordSection::steps);
     let mut worst: f64 = 0.0;
     let mut frames = Frames::new(play.fps);
     let mut inputs = Inputs::new(&mut play);
@@ -152,7 +152,7 @@ pub fn run(
         if let Some(events) = &mut events {
             events.push(simulation.events())?;
         }
-        if (step + 1).is_multiple_of(ABORT_CHECK_STEPS) || step + 1 == steps {
+        if (step + 1).is_multiple_of(JOINT_ERROR_STEPS) || step + 1 == steps {
             worst = worst.max(simulation.joint_error());
         }
         on_step(step + 1);
@@ -189,7 +189,7 @@ struct Inputs {
     breath: Option<WavFeed>,
     aim: Option<[f64; 2]>,
     script: Option<Script>,
-    told: Option<RecordSection>,
+    recorded: Option<RecordSection>,
     mode: Option<MotionMode>,
     aspect: f64,
     commands: Vec<Command>,
@@ -206,7 +206,7 @@ impl Inputs {
             breath: play.breath.take(),
             aim: play.aim,
             script: play.script.take(),
-            told: play.told.take(),
+            recorded: play.recorded.take(),
             mode: play.mode,
             aspect: play.aspect,
             commands: Vec::new(),
@@ -223,8 +223,8 @@ impl Inputs {
             script.due(step as f64 / STEPS_PER_SECOND as f64, &mut self.commands);
             script.pointer_grabs(simulation, self.aspect, &mut self.hands);
         }
-        let input = match &mut self.told {
-            Some(told) => told.input(step),
+        let input = match &mut self.recorded {
+            Some(recorded) => recorded.input(step),
             None => StepInput {
                 mode: self.script.as_ref().and_then(Script::mode).or(self.mode),
                 pointer_grabs: &self.hands,

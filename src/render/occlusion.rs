@@ -2,9 +2,9 @@
 //! from static parts.
 //!
 //! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points in each surface's
-//! tangent frame), so its noise does not flicker: v = 1 − (1/N) Σ max(0, 1 − d/r), with d the distance to the hit and r
-//! the occlusion radius. Vertices see the exhibit in its start pose. Only near hits count, so parts that swing far
-//! apart do not darken each other permanently.
+//! tangent frame), so its noise does not flicker. It is v = 1 − (1/N) Σ max(0, 1 − d/r), with d the distance to the hit
+//! and r the occlusion radius. Vertices see the exhibit in its start pose. Only near hits count, so parts that swing
+//! far apart do not darken each other permanently.
 
 use std::time::Duration;
 

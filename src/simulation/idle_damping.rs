@@ -17,7 +17,7 @@
 //! The motion that attract mode leaves behind would hide what a new visitor does. [`IdleDamping::settle`] damps it at once,
 //! five times as strongly.
 
-use soffio_exhibit::IdleDamping as IdleDampingSpec;
+use soffio_exhibit::IdleDampingSpec;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, vec6};
 
@@ -60,7 +60,7 @@ impl IdleDamping {
     }
 
     /// r, 1/s.
-    fn rate(&self, calm: Calm) -> f64 {
+    fn rate(&self, calm: IdleDampingSpec) -> f64 {
         let ramp = |since: f64, duration: f64| (since / duration).clamp(0.0, 1.0);
         let since = self.idle_time - calm.after;
         let growth = 1.0 + (TUNING.growth - 1.0) * ramp(since, TUNING.growth_time);
@@ -71,7 +71,7 @@ impl IdleDamping {
     }
 
     /// Adds the damping of the bodies to the wrenches on them (force, torque about the centre of mass).
-    pub fn apply(&self, calm: Calm, bodies: &[RigidBody], wrenches: &mut [Vec6]) {
+    pub fn apply(&self, calm: IdleDampingSpec, bodies: &[RigidBody], wrenches: &mut [Vec6]) {
         let rate = self.rate(calm);
         if rate <= 0.0 {
             return;
@@ -87,7 +87,7 @@ impl IdleDamping {
 mod tests {
     use super::*;
 
-    const SETTINGS: Calm = Calm { after: 4.0, time: 2.0 };
+    const SETTINGS: IdleDampingSpec = IdleDampingSpec { after: 4.0, time: 2.0 };
     const DT: f64 = 1.0 / 240.0;
 
     fn pass(idle: &mut IdleDamping, interaction: bool, seconds: f64) {

@@ -1,4 +1,4 @@
-//! An exhibit gathers itself from scattered parts when it comes on, and then is as after a reset.
+//! Assembly: an exhibit assembles from scattered parts when it is shown, and is then as after a reset.
 
 use soffio_simulation::{ASSEMBLY_DURATION, Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 

@@ -36,7 +36,7 @@ pub fn a_change_of_motion_moves_nothing_by_itself(id: &str) {
     const PERIOD: usize = 100;
     let mut simulation = Simulation::new(load(id), Settings::default());
     let (mut quiet, mut worst) = (0, (0.0_f64, 0.0_f64));
-    // How far the last step went from where the velocity pointed: the source's motion goes by leaps itself.
+    // Distance of the last step from the direction of the velocity; procedural motion jumps by itself.
     let mut former = (0.0_f64, 0.0_f64);
     for index in 0..1440 {
         let mode = ORDER[index / PERIOD % 4];
@@ -49,8 +49,8 @@ pub fn a_change_of_motion_moves_nothing_by_itself(id: &str) {
             let turn = 2.0 * (ahead.rotation.conjugate() * to.rotation).xyz().length().min(1.0).asin().to_degrees();
             leap = (leap.0.max(ahead.position.distance(to.position)), leap.1.max(turn));
         }
-        // The source's rule turns what moves fast by much in any of its steps: so it does in its first, and the
-        // speed that it leaves behind is no speed that the joints know.
+        // The classical procedural rule makes large rotations in any step, so also in its first one. The joints do not
+        // account for the velocity that it leaves behind.
         let smooth =
             mode != MotionMode::Procedural && ORDER[index.saturating_sub(1) / PERIOD % 4] != MotionMode::Procedural;
         if index % PERIOD == 0 && index > 0 && smooth && simulation.events().is_empty() {
@@ -75,7 +75,7 @@ fn roughest(piece: &[f32]) -> f64 {
 }
 
 pub fn a_change_of_motion_is_not_heard_as_a_click(id: &str) {
-    /// What no ear finds beside a hit, as for a storm of hits, dB of full scale.
+    /// Clicks below this level are inaudible beside an impact, dB of full scale.
     const CLICK_DB: f64 = -80.0;
     /// Noise of wind and scraping has its own peaks: those of 20 ms beside those of half a second before.
     const ROUGHER: f64 = 2.0;

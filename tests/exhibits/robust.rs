@@ -74,7 +74,7 @@ pub fn a_number_that_is_none_is_found_and_the_figure_put_back(id: &str) {
 pub fn a_hundred_times_the_gravity_is_borne(id: &str) {
     let mut exhibit = Exhibit::clone(&load(id));
     exhibit.gravity = DVec3::new(0.0, -1e3, 0.0);
-    // A joint that has opened counts as open while it is drawn together.
+    // A joint that has opened counts as open while it is being closed.
     let always = exhibit.constraints.iter().all(|constraint| constraint.schedule == Schedule::default());
     let mut simulation = Simulation::new(Arc::new(exhibit), Settings::default());
     let blow = [Command::Blow(Some(17.0))];

@@ -67,7 +67,7 @@ fn turned(exhibit: &Exhibit, angle: f64) -> Vec<Pose> {
 
 fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], dust_particles: &'a [DustParticle]) -> FrameInput<'a> {
     let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-    FrameInput { poses, dust: motes, view, size: SIZE, exposure: 1.0, time: 0.0 }
+    FrameInput { poses, dust: dust_particles, view, size: SIZE, exposure: 1.0, time: 0.0 }
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn a_frame_asks_for_no_memory_before_it_turns_to_the_device() {
             }
             gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device");
         }
-        // What the graphics library and the driver ask for cannot be helped; it is told, not bounded.
+        // Allocations of the graphics library and the driver are beyond our control: they are printed, not limited.
         println!("{id}: {ours} allocations of ours, {:.0} a frame with the library's", all as f64 / FRAMES as f64);
         assert_eq!(ours, 0, "{id}");
     }
@@ -155,7 +155,7 @@ fn a_change_of_work_makes_no_pipeline_and_leaves_nothing_on_the_heap() {
     }
     let change = region.change();
     let kept = (change.bytes_allocated as isize - change.bytes_deallocated as isize) / CHANGES as isize;
-    // What the driver keeps is told, not bounded: its memory is not ours to count.
+    // Memory that the driver keeps is printed, not limited.
     println!(
         "{pipelines} pipelines, {} more after {CHANGES} changes; a change keeps {kept} bytes of the heap, {:.0} kB resident, \
          and takes {:.0} ms with its first picture",

@@ -29,8 +29,8 @@ fn loads_blow_drag_and_scatter_and_repeat_to_the_bit() {
             snapshot.poses.iter().zip(&home).map(|(pose, home)| pose.position.distance(*home)).fold(0.0, f64::max);
         match load {
             StressLoad::Breath(_) => assert_eq!(snapshot.breath.speed, HARDEST_BREATH),
-            StressLoad::Drag => assert_eq!(snapshot.diagnostics.hands, 1),
-            StressLoad::Assembly(_) => assert!(away > 0.1 && run.simulation.gathers_from().is_some(), "{away}"),
+            StressLoad::Drag => assert_eq!(snapshot.diagnostics.grabs, 1),
+            StressLoad::Assembly(_) => assert!(away > 0.1 && run.simulation.assembly_distance().is_some(), "{away}"),
         }
         for _ in 0..120 {
             run.step();

@@ -135,7 +135,7 @@ fn a_childs_breath_moves_what_it_is_aimed_at_by_fifteen_millimetres_within_a_sec
         left.pointer = blown.pointer;
         blown.blow = Some(CHILD);
         let mut most: f64 = 0.0;
-        // The corners of what is blown on: a rotor turns where it is.
+        // The vertices of the surface in the breath: a rotor rotates in place.
         let exhibit = blown.simulation.exhibit().clone();
         let surface = exhibit.wind_surfaces.iter().find(|s| s.node == node).expect("a surface");
         let SurfaceShape::Mesh { mesh, .. } = &surface.shape else { panic!("a mesh") };
@@ -158,7 +158,7 @@ fn a_childs_breath_moves_what_it_is_aimed_at_by_fifteen_millimetres_within_a_sec
 /// Hard breaths at random places for so long: nothing fails, and joints that hold stay closed.
 fn blown_hard(id: &str, seconds: f64, seed: u64) {
     const JOINT_ERROR: f64 = 1e-6;
-    // Joints of these are opened, and drawn together again, by what they show.
+    // Visitors can open and close joints of these exhibits.
     let opens = ["blown-together", "loose-nail"].contains(&id);
     let mut visit = Visit::new(id, Settings { seed, ..Settings::default() });
     let mut random = Random::new(seed);
@@ -383,7 +383,7 @@ fn level_it_rings_the_cymbal_and_askew_it_does_not() {
         }
         visit.hits("Arm", "CymbalBack") + visit.hits("Arm", "CymbalFront")
     };
-    // Whoever sees that it still leans slides on: the level arm is found by bisection, as a visitor finds it.
+    // As a visitor would, bisect the position until the arm is level.
     let (mut low, mut high) = (0.010, 0.026);
     let mut level = slid(0.018);
     for _ in 0..6 {

@@ -138,8 +138,8 @@ fn bamboo_and_glass_ring_their_own_partials() {
 
 #[test]
 fn the_longest_tube_rings_as_long_as_its_material() {
-    // T60 of the first partial, C5: 2.2/(η f) with the loss factors of hung tubes. Radiation and the beats of the two
-    // planes of bending take some of it.
+    // T60 of the first partial, C5: 2.2/(η f) with the loss factors of mounted tubes. Radiation and the beats of the
+    // two bending planes reduce it.
     const ABOUT: f64 = 0.15;
     for (id, expected) in [("wind-chimes", 10.5), ("wind-chimes-bamboo", 0.28), ("wind-chimes-glass", 2.1)] {
         let exhibit = shipped(id);

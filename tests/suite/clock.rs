@@ -171,7 +171,8 @@ fn the_hands_turn_as_twelve_to_one() {
 
 #[test]
 fn its_energy_is_accounted_for() {
-    /// Of the weight's work: what moves sunken teeth out, and the trapezoid rule at hits.
+    /// Relative to the work of the weights: energy of the penetration recovery of teeth, and the trapezoid rule at
+    /// impacts.
     const LEDGER: f64 = 1e-5;
     let mut clock = Clock::new();
     clock.run(10.0, DT);
@@ -204,7 +205,7 @@ fn a_stopped_pendulum_stops_the_train_and_a_push_starts_it() {
     clock.run(60.0, DT);
     assert_eq!(clock.beats.len(), beats, "it beats by itself");
     assert!((clock.turns[0] - stopped).abs() < 0.01, "the wheel goes on by {} rad", clock.turns[0] - stopped);
-    // A push of what carries the pendulum out by some degrees.
+    // A push of the body that carries the pendulum, by some degrees.
     let pendulum = parts[0];
     let push = 0.45;
     for part in parts {
@@ -224,13 +225,14 @@ fn a_stopped_pendulum_stops_the_train_and_a_push_starts_it() {
     );
 }
 
-/// What stands between two strikes.
+/// Bodies that are at rest between two strikes.
 const STRIKING: [&str; 7] = ["StrikeWheel", "StrikeDrum", "StrikeWeight", "PinWheel", "LockWheel", "Fly", "CountWheel"];
 
 /// s, of any of eleven blows; reached: 15 ms. The minute hand's pin lets the flirt fall so much sooner or later.
 const BLOWS_APART: f64 = 5e-2;
-/// s, of any of 1120 beats. What is left out touches nothing that goes, but the forces of fewer touches round otherwise, and from
-/// then on the two runs differ by what a step does to a beat: 2.1 ms in ten seconds (`beats_fall_where_a_finer_step_has_them`).
+/// s, of any of 1120 beats. The bodies left out touch no moving body, but fewer contact forces round differently. From
+/// then on the two runs differ by the effect of a step on a beat: 2.1 ms in ten seconds
+/// (`beats_fall_where_a_finer_step_has_them`).
 /// Over 615 s such differences add up as a random walk: 2.1 ms · √61.5 = 16.5 ms.
 const BEATS_APART: f64 = 16.5e-3;
 

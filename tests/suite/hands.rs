@@ -36,9 +36,9 @@ fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[PointerGrab]) {
 
 #[test]
 fn what_is_taken_follows_the_finger_in_every_kind_of_motion() {
-    /// After a second at rest, m: the steady pull of gravity against a hand that asks for speed costs g Δt τ = 2 mm at the
-    /// most, and more by 1/cos² of the angle at which the eye looks at the way. The source's rule turns nothing
-    /// by small ways, so that gravity keeps more.
+    /// After a second at rest, m: the steady pull of gravity against a grab by speed costs at most g Δt τ = 2 mm. It is
+    /// larger by 1/cos² of the angle between view ray and displacement. The procedural rule ignores small
+    /// displacements, so more of gravity remains.
     const NEAR: [f64; 3] = [4e-3, 1.5e-2, 4e-3];
     for (mode, near) in MODES.into_iter().zip(NEAR) {
         let mut simulation = begin("pendulum");

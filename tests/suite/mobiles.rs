@@ -47,8 +47,9 @@ fn tilt_period(whole: &MassProperties) -> f64 {
     2.0 * PI * (about / (whole.mass * G * -whole.center.y)).sqrt()
 }
 
-/// The design sheet of Twelve Moons, the lowest bough first: moon and what hangs at the other end (g), wire diameter and
-/// length (mm), loop from the moon (mm), I (g m²), T (s) with the loads 12 mm below the loop.
+/// The design sheet of Twelve Moons, the lowest branch first. Masses of the moon and of the load at the other end (g);
+/// wire diameter and length (mm); distance of the loop from the moon (mm). I (g m²) and T (s) with the loads 12 mm
+/// below the loop.
 #[rustfmt::skip] // rows of a table
 const MOONS: [[f64; 7]; 11] = [
     [ 11.9,  10.4, 1.2, 200.0,  93.6,  0.23, 1.8], [ 13.6,  24.1, 1.2, 220.0, 139.2,  0.43, 1.9],
@@ -100,7 +101,7 @@ fn twelve_moons_has_the_inertias_and_periods_of_its_design_sheet() {
 /// The laws alone: no wind, no friction, no hits.
 fn frictionless(exhibit: &Exhibit) -> Dynamics {
     let bodies = exhibit.bodies.iter().map(|body| RigidBody::at_rest(body.properties, body.pose)).collect();
-    let figure = Articulation {
+    let mechanism = Articulation {
         bodies,
         damping: exhibit.bodies.iter().map(|_| Default::default()).collect(),
         constraints: &exhibit.constraints,
@@ -117,7 +118,7 @@ fn frictionless(exhibit: &Exhibit) -> Dynamics {
         integrator: exhibit.integrator,
         solver: exhibit.solver,
     };
-    Dynamics::new(figure, dynamics)
+    Dynamics::new(mechanism, dynamics)
 }
 
 /// Seconds in which `force` (N) on the level at `point` (m, in the frame of body `i`), always across the body's x, turns it

@@ -174,7 +174,8 @@ fn the_part_of_a_lamp_behind_a_plate_is_a_sum_over_its_edges() {
     println!("edges against points: {worst:.5} at worst");
 }
 
-/// A case hung in a room, its picture square on the key's shadow, and what a pixel is wide on the wall, m.
+/// A test case in a gallery, its picture perpendicular to the key lamp's shadow, and the width of a pixel on the wall,
+/// m.
 struct Wall {
     gallery: Gallery,
     renderer: ImageRenderer,

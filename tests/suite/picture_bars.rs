@@ -301,9 +301,9 @@ fn vulkan_and_gl_draw_the_same_picture() {
 
 #[test]
 fn a_slowly_turning_mobile_does_not_shimmer() {
-    /// Of a pixel's second differences in time, linear light: goal 7 of the renderer. Edges of plates that were sampled made
-    /// 0.065, one sample of four after the other. What is left lies in a notch of the fish's outline and
-    /// where a wire crosses a plate.
+    /// Second differences of a pixel in time, linear light: goal 7 of the renderer. Edges of plates that were sampled
+    /// made 0.065, one sample of four after the other. The rest comes from a notch of the fish's outline and from a
+    /// wire that crosses a plate.
     const SHIMMER: f64 = 0.05;
     let exhibit = mobile();
     let Some(mut renderer) = renderer(&exhibit, |_| {}) else { return };

@@ -62,7 +62,7 @@ pub(crate) fn paint(name: &str, base_color: [f32; 4], metallic: f32, roughness: 
     Appearance { name: name.into(), base_color, metallic, roughness, ..Default::default() }
 }
 
-/// A standing mobile after the manner of the collection: post, boom with a black fish, and hung plates.
+/// A standing mobile in the manner of the collection: post, boom with a black fish, and hanging plates.
 pub fn mobile() -> Exhibit {
     let materials = vec![
         paint("black", [0.012, 0.012, 0.014, 1.0], 0.0, 0.42),
@@ -222,7 +222,7 @@ fn each_lamp_throws_the_fish_on_the_wall_where_geometry_says() {
 
 #[test]
 fn a_furnace_shows_no_white_thing() {
-    // Uniform light all around: whatever reflects all of it cannot be told from the background.
+    // Under uniform light a perfect reflector is indistinguishable from the background.
     const TOLERANCE: f32 = 0.02;
     let radiance = Vec3::splat(0.5);
     for metallic in [0.0, 1.0] {

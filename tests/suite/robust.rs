@@ -31,9 +31,9 @@ fn joint(name: &str, a: (Option<usize>, DVec3), b: (Option<usize>, DVec3)) -> Co
     Constraint::new(name, ConstraintKind::PointToPoint { a: anchor(a), b: anchor(b) })
 }
 
-fn figure(bodies: Vec<RigidBody>, constraints: &[Constraint], drives: &[KinematicBody]) -> Dynamics {
+fn mechanism(bodies: Vec<RigidBody>, constraints: &[Constraint], drives: &[KinematicBody]) -> Dynamics {
     let damping = vec![Damping::default(); bodies.len()];
-    let figure = Articulation {
+    let mechanism = Articulation {
         bodies,
         damping,
         constraints,
@@ -50,7 +50,7 @@ fn figure(bodies: Vec<RigidBody>, constraints: &[Constraint], drives: &[Kinemati
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
     };
-    Dynamics::new(figure, settings)
+    Dynamics::new(mechanism, settings)
 }
 
 /// Runs for some seconds; every state is finite. Returns the steps in which the figure was put back.
@@ -87,7 +87,7 @@ fn two_nails_that_contradict_each_other_hold_the_body_between_them() {
     // Its points are 0.2 m apart, their nails 0.3 m.
     let nail = |side: f64| joint("nail", (Some(0), DVec3::X * 0.1 * side), (None, DVec3::X * 0.15 * side));
     let nails = [nail(-1.0), nail(1.0)];
-    let mut dynamics = figure(vec![body(0.5, DVec3::ZERO)], &nails, &[]);
+    let mut dynamics = mechanism(vec![body(0.5, DVec3::ZERO)], &nails, &[]);
     assert_eq!(survive(&mut dynamics, 10.0), 0);
     let at = dynamics.bodies[0].position;
     assert!(at.length() < 0.06, "it went to {at}");
@@ -112,7 +112,7 @@ fn a_body_that_two_hands_pull_apart_stays_with_numbers() {
     };
     for point in [0.1, 0.0] {
         let bodies = vec![body(0.5, DVec3::ZERO), body(1.0, DVec3::X * -0.1), body(1.0, DVec3::X * 0.1)];
-        let mut dynamics = figure(bodies, &held(point), &[hand(1, -1.0), hand(2, 1.0)]);
+        let mut dynamics = mechanism(bodies, &held(point), &[hand(1, -1.0), hand(2, 1.0)]);
         let faults = survive(&mut dynamics, 8.0);
         let at = dynamics.bodies[0].position;
         println!("held at ±{point} m: it ends at {at}, {faults} faults");
@@ -145,7 +145,7 @@ fn what_is_fast_is_no_fault() {
     let mut bullet = body(0.01, DVec3::ZERO);
     bullet.velocity = DVec3::new(400.0, 0.0, 0.0);
     bullet.angular_velocity = DVec3::new(30_000.0, 0.0, 0.0);
-    let mut dynamics = figure(vec![bullet], &[], &[]);
+    let mut dynamics = mechanism(vec![bullet], &[], &[]);
     assert_eq!(survive(&mut dynamics, 1.0), 0);
     assert!((dynamics.bodies[0].position.x - 400.0).abs() < 1e-6, "{}", dynamics.bodies[0].position);
 }
@@ -160,7 +160,7 @@ fn windows_as_long_as_a_step_and_far_shorter_are_run_through() {
             ..Schedule::default()
         };
         let nails = [nail];
-        let mut dynamics = figure(vec![body(0.5, DVec3::ZERO)], &nails, &[]);
+        let mut dynamics = mechanism(vec![body(0.5, DVec3::ZERO)], &nails, &[]);
         let mut substeps = 0;
         for _ in 0..20 {
             assert_eq!(survive(&mut dynamics, DT), 0);
@@ -184,7 +184,7 @@ fn everything_breaks_at_once_and_falls_freely() {
         link.breaking = Some(Breaking { force: 0.5, ..Breaking::default() });
         joints.push(link);
     }
-    let mut dynamics = figure(bodies, &joints, &[]);
+    let mut dynamics = mechanism(bodies, &joints, &[]);
     let start: Vec<f64> = dynamics.bodies.iter().map(|body| body.position.y).collect();
     survive(&mut dynamics, DT);
     let broken: Vec<usize> = dynamics.breaks().iter().map(|b| b.index).collect();
@@ -204,7 +204,7 @@ fn a_joint_that_closes_again_is_drawn_together_before_it_can_break() {
     let mut link = joint("link", (Some(0), DVec3::Y * 0.05), (None, DVec3::ZERO));
     link.breaking = Some(Breaking { force: 1.5 * 0.1 * G, restore: 0.45, ..Breaking::default() });
     let joints = [link];
-    let mut dynamics = figure(vec![body(0.1, DVec3::Y * -0.05)], &joints, &[]);
+    let mut dynamics = mechanism(vec![body(0.1, DVec3::Y * -0.05)], &joints, &[]);
     assert_eq!(survive(&mut dynamics, 0.1), 0);
     // A sharp tug.
     let pull = [[0.0, -2.0, 0.0, 0.0, 0.0, 0.0]];

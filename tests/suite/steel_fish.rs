@@ -68,7 +68,7 @@ fn a_push_swings_it_at_the_tilt_period() {
     const SPREAD: f64 = 0.05;
     let mut simulation =
         Simulation::new(steel_fish(), Settings { wind: false, friction: false, ..Settings::default() });
-    // The whole figure pitched by 5° about the pivot; hung parts keep their attitude and follow their hooks.
+    // The whole mobile pitched by 5° about the pivot; hanging parts keep their attitude and follow their hooks.
     let push = 5.0_f64.to_radians() * 2.0 * PI / PERIOD;
     let pivot = simulation.bodies()[BOOM].pose().position;
     for body in simulation.bodies_mut() {

@@ -113,7 +113,7 @@ const SYSTEMS: &[System] = &[
     ("sphere", |e| shape(e, |s| matches!(s, Core::Point))),
     ("several points of two bodies", |e| e.colliders.iter().filter(|c| matches!(c.shape.core, Core::Box { .. })).count() > 1),
     ("teeth that touch", |e| e.colliders.len() > 40 && e.constraints.iter().any(|c| matches!(c.kind, ConstraintKind::Coupling { .. }))),
-    // 3: motion by places, hands, balls
+    // 3: position-based motion, pointer grabs, balls
     ("choice of the solver while it runs", |e| matches!(e.motion, Motion::Auto { .. })),
     ("taken by the hand", |e| e.touch.permitted && e.bodies.len() > 10),
     ("rolling and sliding balls", |e| {

@@ -1,8 +1,8 @@
 //! Writes a [`Model`] as a binary glTF 2.0 file: the inverse of [`soffio_exhibit::model::import`].
 //!
-//! The file contains what is drawn: visible nodes with content, their ancestors, and animated nodes; meshes as
-//! triangles of 32-bit floats; images as PNG. The output is deterministic. Layout as in the glTF 2.0 specification,
-//! section 4.4: header, JSON padded with spaces, binary chunk padded with zeros.
+//! Contents: visible nodes with content, their ancestors, and animated nodes; meshes as triangles of 32-bit floats;
+//! images as PNG. The output is deterministic. Layout as in the glTF 2.0 specification, section 4.4: header, JSON
+//! padded with spaces, binary chunk padded with zeros.
 
 use serde_json::{Value, json};
 

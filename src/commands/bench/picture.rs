@@ -127,8 +127,14 @@ fn draw(
         if i == WARM {
             began = (ProcessTime::now(), Instant::now());
         }
-        let frame =
-            FrameInput { poses: &moment.poses, dust: &moment.dust_particles, view, size, exposure: 1.0, time: moment.time };
+        let frame = FrameInput {
+            poses: &moment.poses,
+            dust: &moment.dust_particles,
+            view,
+            size,
+            exposure: 1.0,
+            time: moment.time,
+        };
         renderer.draw(gpu, &target, &frame);
         let finished = gpu.device.poll(wgpu::PollType::wait_indefinitely());
         finished.map_err(|error| soffio_render::RenderError::NoDevice(error.to_string()))?;

@@ -131,7 +131,7 @@ pub fn run(args: Args) -> Outcome {
         script,
         seconds,
         aspect: args.outputs.aspect(),
-        room: setup::room()?,
+        reverb: setup::room()?,
         fps: args.outputs.fps,
         ..Play::default()
     };

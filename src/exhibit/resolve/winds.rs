@@ -3,7 +3,7 @@
 use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Gusts, Point};
-use super::super::{BreathTuning, IdleDamping};
+use super::super::{BreathTuning, IdleDampingSpec};
 use super::context::Context;
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
@@ -37,13 +37,13 @@ impl Context<'_> {
     }
 
     /// Idle damping.
-    pub(super) fn calm(&mut self) -> Option<IdleDamping> {
+    pub(super) fn calm(&mut self) -> Option<IdleDampingSpec> {
         let given = self.sidecar.wind.calm?;
         let after = self.not_negative(given.after.0, "/wind/calm/after");
         let time = self.positive(given.time.0, "/wind/calm/time");
         self.record_origin("calm", "after", format!("{after} s"), "/wind/calm/after", "");
         self.record_origin("calm", "time", format!("{time} s"), "/wind/calm/time", "");
-        Some(IdleDamping { after, time })
+        Some(IdleDampingSpec { after, time })
     }
 
     /// Ambient turbulence, fans, draughts and gusts.
@@ -81,7 +81,12 @@ impl Context<'_> {
         self.record_origin("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
         self.record_origin("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
         let kind = WindKind::Turbulence { scale, period, seed: given.seed };
-        Wind { name: AMBIENT.into(), kind, speed: self.wind_speed(&given.speed, at, "room"), modulation: Modulation::Steady }
+        Wind {
+            name: AMBIENT.into(),
+            kind,
+            speed: self.wind_speed(&given.speed, at, "room"),
+            modulation: Modulation::Steady,
+        }
     }
 
     fn fan(&mut self, given: &sidecar::Fan, at: &str) -> Option<Wind> {

@@ -112,7 +112,7 @@ impl PhysicsScene {
     pub fn dynamics(&self, integrator: Integrator, solver: Solver) -> Dynamics {
         let bodies = self.rigid_bodies();
         let colliders = self.colliders();
-        let figure = Articulation {
+        let mechanism = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &self.constraints(),
@@ -129,7 +129,7 @@ impl PhysicsScene {
             integrator,
             solver,
         };
-        Dynamics::new(figure, settings)
+        Dynamics::new(mechanism, settings)
     }
 
     fn joint_rows(&self, joint: &SceneJoint) -> Vec<ConstraintKind> {

@@ -41,7 +41,7 @@ impl Y4m {
 }
 
 /// Y′, C_B and C_R in 8 bits, limited range (ITU-R BT.601 2.5, BT.709 3.3): Y′ = k_r R + (1 − k_r − k_b) G + k_b B,
-/// stored as 16 + 219 Y′; C_B as 128 + 224 (B − Y′)/(2 − 2 k_b), and C_R likewise with R.
+/// stored as 16 + 219 Y′. C_B is stored as 128 + 224 (B − Y′)/(2 − 2 k_b), and C_R likewise with R.
 fn codes([red, blue]: [f32; 2], rgb: [u8; 3]) -> [u8; 3] {
     let [r, g, b] = rgb.map(|code| f32::from(code) / 255.0);
     let y = red * r + (1.0 - red - blue) * g + blue * b;

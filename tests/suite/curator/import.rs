@@ -1,4 +1,5 @@
-//! Exhibits from models: physics that a model carries moves as ours does, and what cannot be said here is told.
+//! Import of models: a model's physics moves as in the engine, and everything that the sidecar cannot express is
+//! reported.
 
 use std::sync::Arc;
 

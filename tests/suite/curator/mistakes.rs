@@ -1,5 +1,5 @@
-//! A new curator at the desk, with the program itself: begins, looks, translates, and makes mistakes. Each mistake is told
-//! with its file, its line, its cause and what to do; no text, however spoiled, ends the program's inside out.
+//! A new curator with the program itself: creates, explores, translates, and makes mistakes. Each mistake is reported
+//! with its file, line, cause and remedy. No text, however broken, crashes the program.
 
 use std::path::Path;
 
@@ -109,8 +109,7 @@ fn a_model_is_imported_under_the_name_of_its_file() {
     assert_eq!(desk.files(), ["My Cup_2.glb", "cup", "my-cup-2", "odd", "odd.glb"]);
 }
 
-/// What stands in a new sidecar, what a curator makes of it, and the words that say what is wrong and what to do. The line is
-/// that of the mistake.
+/// Text of a new sidecar, a curator's mistake in its place, and words of the report. The line is that of the mistake.
 const MISTAKES: [(&str, &str, &[&str]); 17] = [
     ("id = \"mine\"", "id = mine", &["E0101", "not TOML", "quotes"]),
     ("material = \"steel\"", "materail = \"steel\"", &["E0102", "materail", "material"]),

@@ -1,4 +1,4 @@
-//! glTF files, good and broken: what is read is right, and what cannot be read is refused without a panic.
+//! glTF files, good and broken: valid content is read correctly, and invalid content is refused without a panic.
 
 use serde_json::json;
 use soffio_exhibit::{codes, model};

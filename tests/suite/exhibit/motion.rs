@@ -42,7 +42,7 @@ fn a_linear_animation_is_followed_through_still_parents() {
     let at = glide.drives[0].motion.at(0.5);
     assert!(at.pose.position.distance(DVec3::new(0.5, 1.25, 0.0)) < SINGLE, "{:?}", at.pose);
     assert!(at.velocity.distance(DVec3::new(0.0, 0.5, 0.0)) < SINGLE);
-    // It begins anew: animations loop unless they are told not to.
+    // Animations loop by default.
     assert!(glide.drives[0].motion.at(2.5).pose.position.distance(at.pose.position) < SINGLE);
     let once = load(&scene, &format!("{text}animation = {{ name = \"Turn\", loop = false }}\n"));
     let motion = &once.drives[0].motion;

@@ -19,8 +19,8 @@ fn index(exhibit: &Exhibit, name: &str) -> usize {
 
 #[test]
 fn its_hands_are_dragged_while_its_feet_are_held() {
-    /// Feet and hands are where fingers hold them, m: at 2 cm/s what follows with a time constant of 50 ms is 1 mm behind; by
-    /// the laws its weight and its threads pull besides.
+    /// Tolerance of feet and hands at the fingers' positions, m: at 2 cm/s a follower with a time constant of 50 ms is
+    /// 1 mm behind. In constrained dynamics its weight and its threads pull in addition.
     const MET: [f64; 2] = [8e-3, 2e-3];
     const ASPECT: f64 = 16.0 / 9.0;
     for (mode, met) in [MotionMode::Dynamic, MotionMode::PositionBased].into_iter().zip(MET) {

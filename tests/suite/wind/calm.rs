@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use soffio_exhibit::{self as exhibit, Exhibit, IdleDamping};
+use soffio_exhibit::{self as exhibit, Exhibit, IdleDampingSpec};
 use soffio_math::exp;
 use soffio_simulation::{Command, Profile, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 
-const CALM: IdleDamping = IdleDamping { after: 1.0, time: 4.0 };
+const CALM: IdleDampingSpec = IdleDampingSpec { after: 1.0, time: 4.0 };
 /// It grows so much firmer within so long, s.
 const FIRMER: f64 = 8.0;
 const GROWTH: f64 = 5.0;
 /// Air and pivot brake a swing too, and its energy is not the same all the way of one swing.
 const OTHERWISE: f64 = 0.15;
 
-fn pendulum(calm: Option<IdleDamping>) -> Arc<Exhibit> {
+fn pendulum(calm: Option<IdleDampingSpec>) -> Arc<Exhibit> {
     let folder = exhibit::resolve("pendulum").unwrap_or_else(|report| panic!("{report}"));
     let exhibit = exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}"));
     Arc::new(Exhibit { idle_damping: calm, ..exhibit })
@@ -37,7 +37,7 @@ fn wait(simulation: &mut Simulation, seconds: f64) {
 /// Energy where it hangs at rest, J.
 fn lowest() -> f64 {
     let settings = Settings { wind: false, ..Settings::default() };
-    let mut simulation = Simulation::new(pendulum(Some(IdleDamping { after: 0.0, time: 0.3 })), settings);
+    let mut simulation = Simulation::new(pendulum(Some(IdleDampingSpec { after: 0.0, time: 0.3 })), settings);
     wait(&mut simulation, 20.0);
     simulation.energy()
 }
@@ -97,7 +97,7 @@ fn the_next_breath_ends_it() {
 fn what_a_visitor_finds_swinging_is_still_before_they_blow() {
     /// From walking up to blowing, s.
     const SOON: f64 = 1.5;
-    let calm = IdleDamping { after: 1.0, time: 2.5 };
+    let calm = IdleDampingSpec { after: 1.0, time: 2.5 };
     let lowest = lowest();
     let [called, left] = [true, false].map(|called| {
         let mut simulation = blown_for_a_second(&pendulum(Some(calm)), Profile::Gallery);

@@ -125,9 +125,9 @@ impl Context<'_> {
             let mut push = |sides: &[(Option<usize>, DVec3, DVec3)], own: &dyn Fn(f64) -> f64| {
                 let mut row = ConstraintRow { constraint: index, blocks: Vec::new(), rates: TIMES.map(own) };
                 for &(body, force, moment) in sides {
-                    if let Some(driven) = moving(body) {
+                    if let Some(kinematic_body) = moving(body) {
                         for (rate, t) in row.rates.iter_mut().zip(TIMES) {
-                            *rate -= kinematic_rate(drives, driven, t, center, force, moment);
+                            *rate -= kinematic_rate(drives, kinematic_body, t, center, force, moment);
                         }
                     } else if let Some(body) = body {
                         let block = [force, moment / size];

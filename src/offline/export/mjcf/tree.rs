@@ -88,13 +88,13 @@ impl Tree {
                 Some((a, b)) => links.entry((a.min(b), a.max(b))).or_default().push(constraint),
             }
         }
-        let driven: Vec<bool> = (0..count).map(|i| exhibit.drives.iter().any(|drive| drive.body == i)).collect();
+        let is_kinematic: Vec<bool> = (0..count).map(|i| exhibit.drives.iter().any(|drive| drive.body == i)).collect();
         let still = Joint { names: Vec::new(), freedoms: Vec::new(), point: DVec3::ZERO };
         let free = Joint { freedoms: vec![Freedom::Free], ..still.clone() };
         let mut bodies: Vec<Option<TreeBody>> = vec![None; count];
         let mut tree = Self { bodies: Vec::new(), roots: Vec::new(), equalities: Vec::new(), omitted };
         let mut open: VecDeque<Option<usize>> = VecDeque::from([None]);
-        for body in (0..count).filter(|&i| driven[i]) {
+        for body in (0..count).filter(|&i| is_kinematic[i]) {
             bodies[body] = Some(TreeBody { parent: None, joint: still.clone(), children: Vec::new() });
             tree.roots.push(body);
             open.push_back(Some(body));
