@@ -21,8 +21,8 @@
 //! run; Runge–Kutta begins the next. What else may happen to bodies the error tells.
 
 use super::equations::Equations;
-use super::lane_kernels::{Pass, accelerations, by_quads, put, quad};
-use super::substep_state::{Course, ENOUGH, KEPT, SLOWEST, less, norm};
+use super::lane_kernels::{LaneKernel, accelerations, put, quad, run_kernel};
+use super::substep_state::{ENOUGH, KEPT, SLOWEST, SubstepState, less, norm};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::State;
@@ -36,7 +36,7 @@ const ERROR: f64 = 19.0 / 720.0;
 
 /// How long the run of steps that differ by little has lasted.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Run {
+pub(super) struct MultistepHistory {
     /// Length of its steps, s.
     h: f64,
     /// Differences that belong to it, and where the present step's goes.
@@ -46,7 +46,7 @@ pub(super) struct Run {
     left: bool,
 }
 
-impl Run {
+impl MultistepHistory {
     /// A substep begins where the last one ended.
     pub fn begin(&mut self) {
         if self.left {
@@ -87,16 +87,16 @@ impl Run {
         &self,
         equations: &mut Equations,
         bodies: &mut [RigidBody],
-        courses: &mut [Course],
+        states: &mut [SubstepState],
         (t, h): (f64, f64),
     ) {
-        by_quads(&mut equations.system, Predict { courses, h, slots: self.slots() });
+        run_kernel(&mut equations.system, Predict { states, h, slots: self.slots() });
         equations.accelerate(bodies, t + h);
     }
 
     /// Corrects the predicted state by the accelerations found there. Was the motion smooth enough for it?
-    pub fn correct(&self, system: &mut System, courses: &mut [Course], norms: &mut [[f64; 2]], h: f64) -> bool {
-        by_quads(system, Correct { courses, norms: &mut *norms, h, slots: self.slots(), slot: self.head });
+    pub fn correct(&self, system: &mut System, states: &mut [SubstepState], norms: &mut [[f64; 2]], h: f64) -> bool {
+        run_kernel(system, Correct { states, norms: &mut *norms, h, slots: self.slots(), slot: self.head });
         let [error, scale] = norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
         // What is no number is not small.
         error <= SMOOTH * SMOOTH * scale
@@ -110,8 +110,8 @@ impl Run {
 
 /// ∇, ∇² and ∇³ of the last steps.
 #[inline(always)]
-fn differences<L: Lanes>(lanes: L, course: &Course, slots: [usize; ENOUGH]) -> [Twist<L::T>; ENOUGH] {
-    let at = |ago: usize| course.differences[slots[ago]].get(lanes);
+fn differences<L: Lanes>(lanes: L, substep: &SubstepState, slots: [usize; ENOUGH]) -> [Twist<L::T>; ENOUGH] {
+    let at = |ago: usize| substep.differences[slots[ago]].get(lanes);
     let (first, second, third) = (at(0), at(1), at(2));
     let (last, before) = (less(first, second), less(second, third));
     [first, last, less(last, before)]
@@ -140,20 +140,20 @@ fn arrived<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, to: Twis
 }
 
 struct Predict<'a> {
-    courses: &'a mut [Course],
+    states: &'a mut [SubstepState],
     h: f64,
     slots: [usize; ENOUGH],
 }
 
-impl Pass for Predict<'_> {
+impl LaneKernel for Predict<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let a = accelerations(lanes, system, &members);
-        let course = &mut self.courses[index];
-        course.begun.put(lanes, &a);
-        let (start, h) = (course.start.get(lanes), self.h);
-        let [d, dd, ddd] = differences(lanes, course, self.slots);
+        let substep = &mut self.states[index];
+        substep.begun.put(lanes, &a);
+        let (start, h) = (substep.start.get(lanes), self.h);
+        let [d, dd, ddd] = differences(lanes, substep, self.slots);
         let h2 = h * h;
         let speed = [1.0, h, h / 2.0, h * 5.0 / 12.0, h * 3.0 / 8.0];
         let way = [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0];
@@ -167,7 +167,7 @@ impl Pass for Predict<'_> {
 }
 
 struct Correct<'a> {
-    courses: &'a mut [Course],
+    states: &'a mut [SubstepState],
     norms: &'a mut [[f64; 2]],
     h: f64,
     slots: [usize; ENOUGH],
@@ -175,16 +175,16 @@ struct Correct<'a> {
     slot: usize,
 }
 
-impl Pass for Correct<'_> {
+impl LaneKernel for Correct<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
         let a = accelerations(lanes, system, &members);
-        let course = &self.courses[index];
-        let (start, h) = (course.start.get(lanes), self.h);
-        let [d, dd, ddd] = differences(lanes, course, self.slots);
-        let first = less(a, course.begun.get(lanes));
+        let substep = &self.states[index];
+        let (start, h) = (substep.start.get(lanes), self.h);
+        let [d, dd, ddd] = differences(lanes, substep, self.slots);
+        let first = less(a, substep.begun.get(lanes));
         let second = less(first, d);
         let third = less(second, dd);
         let fourth = less(third, ddd);
@@ -203,7 +203,7 @@ impl Pass for Correct<'_> {
         let error = norm(mass, &inertia, &Twist { linear: fourth.linear * share, angular: fourth.angular * share });
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &to) + mass * slowest * slowest;
-        self.courses[index].differences[self.slot].put(lanes, &first);
+        self.states[index].differences[self.slot].put(lanes, &first);
         put(lanes, system, index, &state);
         let norms = &mut *self.norms;
         lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);

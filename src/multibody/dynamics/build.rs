@@ -9,7 +9,7 @@ use super::recovery::Recovery;
 use super::settings::{Articulation, Integrator, Settings, Solver};
 use super::sleep::Sleep;
 use super::step::Dynamics;
-use super::work_budget::Effort;
+use super::work_budget::WorkBudget;
 use crate::articulation::System;
 
 /// Figures of at most this many bodies, without anything to hit, are integrated precisely where nothing else is asked:
@@ -20,28 +20,28 @@ impl Dynamics {
     /// A figure at its start.
     pub fn new(figure: Articulation, settings: Settings) -> Self {
         let n = figure.bodies.len();
-        let mut driven = vec![false; n];
+        let mut is_kinematic = vec![false; n];
         for drive in figure.kinematic_bodies {
-            driven[drive.body] = true;
+            is_kinematic[drive.body] = true;
         }
         let mut bodies = figure.bodies;
         for drive in figure.kinematic_bodies {
-            drive.motion.at(0.0).carry(&mut bodies[drive.body]);
+            drive.motion.at(0.0).place(&mut bodies[drive.body]);
         }
-        let mut system = System::new(&bodies, &driven, figure.constraints, settings.solver);
+        let mut system = System::new(&bodies, &is_kinematic, figure.constraints, settings.solver);
         let without_trains = system
             .has_trains()
-            .then(|| Box::new(System::without_trains(&bodies, &driven, figure.constraints, settings.solver)));
+            .then(|| Box::new(System::without_trains(&bodies, &is_kinematic, figure.constraints, settings.solver)));
         system.evaluate(&bodies);
         let joints = (system.states().len(), settings.stabilization_time);
         let mut contacts = Contacts::new(
             figure.colliders,
             figure.pairs,
             (figure.limits, figure.constraints),
-            (&bodies, &driven),
+            (&bodies, &is_kinematic),
             joints,
         );
-        contacts.find_rest(&bodies);
+        contacts.find_resting_contacts(&bodies);
         let precise = match settings.integrator {
             Integrator::Auto => n <= FEW && contacts.is_empty(),
             Integrator::Precise => true,
@@ -58,8 +58,8 @@ impl Dynamics {
             integration: Integration::new(settings.integrator, precise, n, system.quads().members().len()),
             equations: Equations::new((system, without_trains), springs, figure.kinematic_bodies, &damping, laws),
             contacts,
-            effort: Effort::default(),
-            sleep: Sleep::new(&bodies, &driven, ties, sleeps),
+            budget: WorkBudget::default(),
+            sleep: Sleep::new(&bodies, &is_kinematic, ties, sleeps),
             before: bodies.clone(),
             recovery: Recovery::new(n),
             settings,

@@ -23,7 +23,7 @@
 
 use crate::articulation::{Constraint, System};
 
-use super::contacts::Row;
+use super::contacts::JacobianRow;
 
 /// One clutch.
 #[derive(Clone, Copy, Debug)]
@@ -66,21 +66,21 @@ impl Clutches {
     }
 
     /// Notes what those that hold carry by the last solve, of forces.
-    pub fn weigh(&mut self, system: &System) {
+    pub fn record_loads(&mut self, system: &System) {
         for clutch in self.0.iter_mut().filter(|clutch| !clutch.slips) {
             clutch.load = system.coupling(clutch.constraint).multiplier;
         }
     }
 
     /// Adds what they carry by the last solve, of impulses over `h` seconds.
-    pub fn weigh_more(&mut self, h: f64, system: &System) {
+    pub fn add_loads(&mut self, h: f64, system: &System) {
         for clutch in self.0.iter_mut().filter(|clutch| !clutch.slips) {
             clutch.load += system.coupling(clutch.constraint).multiplier / h;
         }
     }
 
     /// Lets slip what carries too much; tells `found` its index, its row and what it carried before. Did anything?
-    pub fn give_way(&mut self, system: &mut System, mut found: impl FnMut(usize, Row, f64)) -> bool {
+    pub fn slip_overloaded(&mut self, system: &mut System, mut found: impl FnMut(usize, JacobianRow, f64)) -> bool {
         let mut any = false;
         for index in 0..self.0.len() {
             let Clutch { constraint, torque, load, carried, slips } = self.0[index];
@@ -99,8 +99,8 @@ impl Clutches {
     }
 
     /// J of a clutch at the joints' last evaluation, times `scale`.
-    pub fn row(&self, index: usize, scale: f64, system: &System) -> Row {
-        let mut row = Row::default();
+    pub fn row(&self, index: usize, scale: f64, system: &System) -> JacobianRow {
+        let mut row = JacobianRow::default();
         for (body, block) in system.coupling(self.0[index].constraint).parts {
             row.add(Some(*body), scale, block);
         }
@@ -108,7 +108,7 @@ impl Clutches {
     }
 
     /// Lets one that slips hold, under a `load` in N m; answers its constraint, whose row is to act from here on.
-    pub fn take_hold(&mut self, index: usize, load: f64) -> usize {
+    pub fn stick(&mut self, index: usize, load: f64) -> usize {
         let clutch = &mut self.0[index];
         (clutch.slips, clutch.carried) = (false, load);
         clutch.constraint

@@ -4,7 +4,7 @@
 
 use super::KinematicBody;
 use super::forces::{Damping, Springs, Wrenches};
-use super::lane_kernels::{Push, Settle, Show, by_quads};
+use super::lane_kernels::{AddVelocityChange, ApplyForces, WriteBack, run_kernel};
 use crate::articulation::System;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
@@ -16,13 +16,13 @@ const COARSE: f64 = 1e-7;
 
 /// How much of a figure's system belongs to the present state: each the more after the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Known {
+pub(super) enum Evaluated {
     /// Nothing: bodies have moved, or joints have changed.
     Nothing,
     /// Rows and factor, as a projection or a substep's end leaves them; not the accelerations, since forces have changed.
     Factor,
     /// The accelerations too.
-    Rates,
+    Accelerations,
 }
 
 /// The equations of motion of a figure.
@@ -35,7 +35,7 @@ pub(super) struct Equations {
     pub springs: Springs,
     pub kinematic_bodies: Vec<KinematicBody>,
     /// Body and acceleration of each drive at the time last asked for.
-    driven_accelerations: Vec<(usize, Vec6)>,
+    kinematic_accelerations: Vec<(usize, Vec6)>,
     /// Rates of damping by quads, linear and angular, 1/s.
     damping: Vec<[Four; 2]>,
     pub wrenches: Wrenches,
@@ -44,7 +44,7 @@ pub(super) struct Equations {
     /// 1/ω₀ of the stabiliser, s.
     stabilization_time: f64,
     /// What of the system belongs to the present state.
-    pub known: Known,
+    pub evaluated: Evaluated,
 }
 
 impl Equations {
@@ -62,7 +62,7 @@ impl Equations {
         };
         Self {
             damping: system.quads().members().iter().map(|members| of_bodies(members.bodies)).collect(),
-            driven_accelerations: kinematic_bodies.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
+            kinematic_accelerations: kinematic_bodies.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
             wrenches: Wrenches::new(damping.len()),
             system,
             without_trains,
@@ -70,7 +70,7 @@ impl Equations {
             kinematic_bodies: kinematic_bodies.to_vec(),
             gravity,
             stabilization_time,
-            known: Known::Nothing,
+            evaluated: Evaluated::Nothing,
         }
     }
 
@@ -82,24 +82,24 @@ impl Equations {
     }
 
     /// Accelerations of the present state into the system's `a`, as far as they are not there already.
-    pub fn ensure_rates(&mut self, bodies: &mut [RigidBody], t: f64) {
-        if self.known == Known::Rates {
+    pub fn ensure_accelerations(&mut self, bodies: &mut [RigidBody], t: f64) {
+        if self.evaluated == Evaluated::Accelerations {
             return;
         }
-        self.carry_driven(bodies, t);
-        if self.known == Known::Nothing {
+        self.place_kinematic_bodies(bodies, t);
+        if self.evaluated == Evaluated::Nothing {
             self.system.evaluate_lean(bodies);
             self.system.look_for_gaps();
             self.system.factor();
         }
         self.solve_forces(bodies, t);
-        self.known = Known::Rates;
+        self.evaluated = Evaluated::Accelerations;
     }
 
     /// Accelerations at the quads' present state, rows and factor made anew.
     pub fn accelerate(&mut self, bodies: &mut [RigidBody], t: f64) {
-        self.carry_driven(bodies, t);
-        self.show_where_asked(bodies);
+        self.place_kinematic_bodies(bodies, t);
+        self.write_back_if_needed(bodies);
         self.system.evaluate_motion(bodies);
         self.system.factor();
         self.solve_forces(bodies, t);
@@ -107,27 +107,27 @@ impl Equations {
 
     /// Accelerations by the rows and the factor at hand.
     pub fn solve_forces(&mut self, bodies: &[RigidBody], t: f64) {
-        let push = Push { external: &self.wrenches.total, damping: &self.damping, gravity: self.gravity };
-        by_quads(&mut self.system, push);
+        let push = ApplyForces { external: &self.wrenches.total, damping: &self.damping, gravity: self.gravity };
+        run_kernel(&mut self.system, push);
         self.springs.push(bodies, t, &mut self.system.b);
-        for (body, a) in &self.driven_accelerations {
+        for (body, a) in &self.kinematic_accelerations {
             self.system.a[*body] = *a;
         }
         self.system.solve_acceleration(bodies, 1.0 / self.stabilization_time);
     }
 
     /// Puts driven bodies where they belong at the time `t`.
-    pub fn carry_driven(&mut self, bodies: &mut [RigidBody], t: f64) {
+    pub fn place_kinematic_bodies(&mut self, bodies: &mut [RigidBody], t: f64) {
         self.system.activity.set_time(t);
-        for (drive, (body, a)) in self.kinematic_bodies.iter().zip(&mut self.driven_accelerations) {
-            let (acceleration, turn) = drive.motion.at(t).carry(&mut bodies[*body]);
+        for (drive, (body, a)) in self.kinematic_bodies.iter().zip(&mut self.kinematic_accelerations) {
+            let (acceleration, turn) = drive.motion.at(t).place(&mut bodies[*body]);
             self.system.quads_mut().look_at(*body, &bodies[*body]);
             *a = vec6(acceleration, turn);
         }
     }
 
     /// Moves bodies and quads by semi-implicit Euler over `h`, by the accelerations found last.
-    pub fn move_on(&mut self, bodies: &mut [RigidBody], h: f64) {
+    pub fn step_euler(&mut self, bodies: &mut [RigidBody], h: f64) {
         for (body, a) in bodies.iter_mut().zip(&self.system.a) {
             body.velocity += h * linear(a);
             body.angular_velocity += h * angular(a);
@@ -141,21 +141,21 @@ impl Equations {
     pub fn project(&mut self, bodies: &mut [RigidBody]) {
         self.system.quads_mut().look(bodies);
         self.close_joints(bodies, true, true);
-        self.known = Known::Factor;
+        self.evaluated = Evaluated::Factor;
     }
 
     /// Takes over the velocities of bodies whose joints are closed, and factored there.
-    pub fn look_at_rates(&mut self, bodies: &mut [RigidBody]) {
+    pub fn take_over_state(&mut self, bodies: &mut [RigidBody]) {
         self.system.quads_mut().look(bodies);
         self.evaluate_quads(bodies);
         self.system.look_for_gaps();
-        self.known = Known::Factor;
+        self.evaluated = Evaluated::Factor;
     }
 
     /// Closes the joints at the quads' new state, at the time `t`; in speed where nothing does so afterwards. Not `anew`, the
     /// factor is that of a state which differs by less than a step's error.
     pub fn close(&mut self, bodies: &mut [RigidBody], t: f64, (anew, in_speed): (bool, bool)) {
-        self.carry_driven(bodies, t);
+        self.place_kinematic_bodies(bodies, t);
         self.close_joints(bodies, anew, in_speed);
     }
 
@@ -166,7 +166,7 @@ impl Equations {
             self.system.factor();
         }
         if self.system.states().is_empty() {
-            by_quads(&mut self.system, Show { bodies });
+            run_kernel(&mut self.system, WriteBack { bodies });
             return;
         }
         self.system.look_for_gaps();
@@ -183,38 +183,38 @@ impl Equations {
         }
         if in_speed {
             self.system.solve_velocity_quads(bodies);
-            by_quads(&mut self.system, Settle { bodies });
+            run_kernel(&mut self.system, AddVelocityChange { bodies });
         } else {
-            by_quads(&mut self.system, Show { bodies });
+            run_kernel(&mut self.system, WriteBack { bodies });
         }
     }
 
     /// Evaluates the rows at the quads' present state.
     fn evaluate_quads(&mut self, bodies: &mut [RigidBody]) {
-        self.show_where_asked(bodies);
+        self.write_back_if_needed(bodies);
         self.system.evaluate_quads(bodies);
     }
 
-    fn show_where_asked(&mut self, bodies: &mut [RigidBody]) {
+    fn write_back_if_needed(&mut self, bodies: &mut [RigidBody]) {
         if self.system.asks_bodies() || !self.springs.is_empty() {
-            by_quads(&mut self.system, Show { bodies });
+            run_kernel(&mut self.system, WriteBack { bodies });
         }
     }
 
     /// Lets pivot friction act for `dt` seconds under these loads of the joints (N), the joints held.
-    pub fn rub(&mut self, bodies: &mut [RigidBody], loads: &[f64], dt: f64) {
+    pub fn apply_pivot_friction(&mut self, bodies: &mut [RigidBody], loads: &[f64], dt: f64) {
         self.system.evaluate(bodies);
         self.system.add_friction(bodies, loads, dt);
         self.system.factor();
         self.system.solve_velocity(bodies);
         self.system.apply_velocity(bodies);
-        self.known = Known::Nothing;
+        self.evaluated = Evaluated::Nothing;
     }
 
     /// Factors the joints at the present poses, for impulses.
     pub fn prepare_impulses(&mut self, bodies: &[RigidBody]) {
         self.system.evaluate_lean(bodies);
         self.system.factor();
-        self.known = Known::Nothing;
+        self.evaluated = Evaluated::Nothing;
     }
 }

@@ -1,6 +1,6 @@
 //! The integrators: from one state of constrained bodies to a later one.
 //!
-//! How a state goes on at a rate says `course.rs`; it is done for four bodies at a time, by the quads of the tree.
+//! How a state goes on at a rate says `state.rs`; it is done for four bodies at a time, by the quads of the tree.
 //! At the end of a substep the joints have drifted by the method's local error; one Newton step on C (least in kinetic
 //! energy) brings them back to rounding, one linear solve does the same for Ċ. The factor of that projection also gives
 //! the rate at the new state, which is the next substep's first stage.
@@ -26,12 +26,12 @@
 //! II.1.3). **Fast**: semi-implicit Euler.
 
 use super::Integrator;
-use super::adams::Run;
+use super::adams::MultistepHistory;
 use super::contacts::Contacts;
-use super::equations::{Equations, Known};
-use super::lane_kernels::{Begin, Compare, Estimate, Guess, Last, Mean, Return, Stage, Stages, by_quads};
+use super::equations::{Equations, Evaluated};
+use super::lane_kernels::{Compare, Estimate, Guess, Last, Mean, Restore, Save, Stage, Stages, run_kernel};
 use super::step_size_controller;
-use super::substep_state::{Course, Rate, SLOWEST};
+use super::substep_state::{Rate, SLOWEST, SubstepState};
 use soffio_geometry::bodies::RigidBody;
 
 /// Shares of the step at which the second, third and fourth rates are taken, and the weights of the four.
@@ -73,19 +73,19 @@ pub(super) struct Integration {
     /// Is it the Gauss–Legendre method's figure?
     precise: bool,
     /// By quads of the joints' tree.
-    courses: Vec<Course>,
+    states: Vec<SubstepState>,
     /// Rates of the Gauss–Legendre stages, by quads.
     stages: Stages,
     /// What a pass over the bodies found of each, for sums in their order.
     norms: Vec<[f64; 2]>,
     /// The steps that Adams' method goes on from.
-    run: Run,
+    history: MultistepHistory,
     /// h of the last substep; `None` where its error says nothing of the next.
     pub fourth_step: Option<f64>,
     /// Length of the present step, s.
     dt: f64,
     /// Substep that the error allows, s.
-    pub stride: f64,
+    pub suggested_step: f64,
 }
 
 impl Integration {
@@ -95,13 +95,13 @@ impl Integration {
         Self {
             method,
             precise,
-            courses: vec![Course::default(); quads],
+            states: vec![SubstepState::default(); quads],
             stages: [stages(), stages(), stages()],
             norms: vec![[0.0; 2]; bodies],
-            run: Run::default(),
+            history: MultistepHistory::default(),
             fourth_step: None,
             dt: 0.0,
-            stride: f64::INFINITY,
+            suggested_step: f64::INFINITY,
         }
     }
 
@@ -112,25 +112,25 @@ impl Integration {
 
     /// Begins a substep where the bodies are.
     pub fn begin_substep(&mut self, moving: &mut Moving) {
-        by_quads(&mut moving.equations.system, Begin { bodies: moving.bodies, courses: &mut self.courses });
-        self.run.begin();
+        run_kernel(&mut moving.equations.system, Save { bodies: moving.bodies, states: &mut self.states });
+        self.history.begin();
     }
 
     /// Puts the bodies back to where the substep began.
     pub fn back_to_start(&self, moving: &mut Moving) {
-        by_quads(&mut moving.equations.system, Return { bodies: moving.bodies, courses: &self.courses });
-        moving.equations.known = Known::Nothing;
+        run_kernel(&mut moving.equations.system, Restore { bodies: moving.bodies, states: &self.states });
+        moving.equations.evaluated = Evaluated::Nothing;
     }
 
     /// Something has happened: past accelerations say nothing of what comes.
     pub fn interrupt(&mut self) {
-        self.run.end();
+        self.history.end();
     }
 
     /// Forgets all that was learnt: the figure goes on from another state.
-    pub fn begin_anew(&mut self) {
-        self.run.end();
-        (self.fourth_step, self.stride) = (None, f64::INFINITY);
+    pub fn reset(&mut self) {
+        self.history.end();
+        (self.fourth_step, self.suggested_step) = (None, f64::INFINITY);
     }
 
     /// A body of this mass (kg) is put to rest: it has no error.
@@ -143,8 +143,8 @@ impl Integration {
     pub fn integrate(&mut self, moving: &mut Moving, t: f64, mut h: f64, least: f64) -> f64 {
         let whole = h > 0.999 * self.dt;
         if whole && !self.precise && self.method == Integrator::Auto && self.adams(moving, t, h) {
-            moving.equations.known = Known::Factor;
-            self.stride = f64::INFINITY;
+            moving.equations.evaluated = Evaluated::Factor;
+            self.suggested_step = f64::INFINITY;
             return h;
         }
         loop {
@@ -158,8 +158,8 @@ impl Integration {
                 let error = self.runge_kutta(moving, t, h);
                 step_size_controller::judge(h, self.dt, error)
             };
-            moving.equations.known = Known::Rates;
-            self.stride = wish;
+            moving.equations.evaluated = Evaluated::Accelerations;
+            self.suggested_step = wish;
             if good || h <= least {
                 return h;
             }
@@ -171,15 +171,15 @@ impl Integration {
 
     /// Moves the bodies from the time `t` by `h`, by the classical Runge–Kutta method; returns the estimated error.
     fn runge_kutta(&mut self, moving: &mut Moving, t: f64, h: f64) -> f64 {
-        moving.equations.ensure_rates(moving.bodies, t);
+        moving.equations.ensure_accelerations(moving.bodies, t);
         for stage in 1..4 {
             let (weight, share) = (WEIGHTS[stage - 1], NODES[stage]);
-            let pass = Stage { courses: &mut self.courses, first: stage == 1, weight, h: share * h };
-            by_quads(&mut moving.equations.system, pass);
+            let pass = Stage { states: &mut self.states, first: stage == 1, weight, h: share * h };
+            run_kernel(&mut moving.equations.system, pass);
             moving.equations.accelerate(moving.bodies, t + NODES[stage] * h);
         }
-        by_quads(&mut moving.equations.system, Last { courses: &mut self.courses, h, weight: WEIGHTS[3] });
-        moving.arrive(t + h);
+        run_kernel(&mut moving.equations.system, Last { states: &mut self.states, h, weight: WEIGHTS[3] });
+        moving.finish_substep(t + h);
         self.estimate(moving, h)
     }
 
@@ -188,9 +188,9 @@ impl Integration {
         let cube = h * h * h;
         // h⁵/(6 h'), or a share of the estimate itself where there is no substep before.
         let spread = cube * self.fourth_step.map_or(h * UNKNOWN, |before| h * h / before) / 6.0;
-        let (per_cube, before, slot) = (1.0 / cube, self.fourth_step.is_some(), self.run.goes_by(h));
-        let (courses, norms) = (&mut self.courses, &mut self.norms);
-        by_quads(&mut moving.equations.system, Estimate { courses, norms, per_cube, spread, before, slot });
+        let (per_cube, before, slot) = (1.0 / cube, self.fourth_step.is_some(), self.history.goes_by(h));
+        let (states, norms) = (&mut self.states, &mut self.norms);
+        run_kernel(&mut moving.equations.system, Estimate { states, norms, per_cube, spread, before, slot });
         self.fourth_step = Some(h);
         let [error, scale] = self.norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
         (error / scale).sqrt()
@@ -198,29 +198,29 @@ impl Integration {
 
     /// Moves the bodies by semi-implicit Euler.
     fn euler(&mut self, moving: &mut Moving, t: f64, h: f64) {
-        moving.equations.ensure_rates(moving.bodies, t);
-        moving.equations.move_on(moving.bodies, h);
-        moving.arrive(t + h);
+        moving.equations.ensure_accelerations(moving.bodies, t);
+        moving.equations.step_euler(moving.bodies, h);
+        moving.finish_substep(t + h);
     }
 
     /// Moves the bodies from the time `t` by `h` by Adams' method, if they have moved smoothly enough for it; else they stay
     /// where they were.
     fn adams(&mut self, moving: &mut Moving, t: f64, h: f64) -> bool {
-        if !self.run.serves(h) {
+        if !self.history.serves(h) {
             return false;
         }
-        moving.equations.ensure_rates(moving.bodies, t);
-        self.run.predict(moving.equations, moving.bodies, &mut self.courses, (t, h));
-        moving.contacts.weigh(&moving.equations.system);
-        let smooth = self.run.correct(&mut moving.equations.system, &mut self.courses, &mut self.norms, h);
+        moving.equations.ensure_accelerations(moving.bodies, t);
+        self.history.predict(moving.equations, moving.bodies, &mut self.states, (t, h));
+        moving.contacts.record_clutch_loads(&moving.equations.system);
+        let smooth = self.history.correct(&mut moving.equations.system, &mut self.states, &mut self.norms, h);
         if smooth {
             // The corrected state is the predicted one but for an error of fifth order: its factor serves.
             moving.close(t + h, false);
-            self.run.go_on();
+            self.history.go_on();
             // It is another method's estimate.
             self.fourth_step = None;
         } else {
-            self.run.end();
+            self.history.end();
             self.back_to_start(moving);
         }
         smooth
@@ -228,16 +228,16 @@ impl Integration {
 
     /// Moves the bodies by the Gauss–Legendre method; false where the iteration did not settle.
     fn gauss(&mut self, moving: &mut Moving, t: f64, h: f64) -> bool {
-        let Self { courses, stages, norms, .. } = self;
-        moving.equations.ensure_rates(moving.bodies, t);
-        by_quads(&mut moving.equations.system, Guess { courses, stages, h, nodes: GAUSS_NODES });
+        let Self { states, stages, norms, .. } = self;
+        moving.equations.ensure_accelerations(moving.bodies, t);
+        run_kernel(&mut moving.equations.system, Guess { states, stages, h, nodes: GAUSS_NODES });
         let mut settled = false;
         for _ in 0..MOST_ITERATIONS {
             let (mut change, mut size) = (0.0, 0.0);
             for stage in 0..3 {
-                by_quads(&mut moving.equations.system, Mean { courses, stages, weights: GAUSS[stage], h });
+                run_kernel(&mut moving.equations.system, Mean { states, stages, weights: GAUSS[stage], h });
                 moving.equations.accelerate(moving.bodies, t + GAUSS_NODES[stage] * h);
-                by_quads(&mut moving.equations.system, Compare { courses, stages, norms, stage });
+                run_kernel(&mut moving.equations.system, Compare { states, stages, norms, stage });
                 for norm in &*norms {
                     change += norm[0];
                     size += norm[1];
@@ -253,23 +253,23 @@ impl Integration {
             }
             settled = change <= NEARLY * NEARLY * size;
         }
-        by_quads(&mut moving.equations.system, Mean { courses, stages, weights: GAUSS_WEIGHTS, h });
-        moving.arrive(t + h);
+        run_kernel(&mut moving.equations.system, Mean { states, stages, weights: GAUSS_WEIGHTS, h });
+        moving.finish_substep(t + h);
         settled
     }
 }
 
 impl Moving<'_> {
     /// Closes the joints at the new state, at the time `t`, and finds the rate there.
-    fn arrive(&mut self, t: f64) {
+    fn finish_substep(&mut self, t: f64) {
         self.close(t, true);
         self.equations.solve_forces(self.bodies, t);
-        self.contacts.weigh(&self.equations.system);
+        self.contacts.record_clutch_loads(&self.equations.system);
     }
 
     /// Closes the joints at the new state, at the time `t`; in speed where what rests does not do so afterwards, with its impulses.
     /// Not `anew`, the factor is that of a state which differs by less than a step's error.
     fn close(&mut self, t: f64, anew: bool) {
-        self.equations.close(self.bodies, t, (anew, !self.contacts.anything_rests()));
+        self.equations.close(self.bodies, t, (anew, !self.contacts.has_resting_contacts()));
     }
 }

@@ -10,28 +10,28 @@ pub(super) struct JointLoads {
     /// Force that each joint carried when it was last asked, N.
     loads: Vec<f64>,
     /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
-    levers: Vec<f64>,
+    tension_stiffness: Vec<f64>,
     /// Is there friction in any pivot?
-    pub rubs: bool,
+    pub has_friction: bool,
     /// Does anything ask at a substep's end what the joints carry there: pivots that rub, or joints that break? Else the next
     /// one's first stage tells, under its own forces.
-    pub weighs: bool,
+    pub needed_at_substep_end: bool,
 }
 
 impl JointLoads {
     /// Of joints that carry nothing yet, evaluated at the figure's start; `friction` says whether pivots may rub.
     pub fn new(system: &System, bodies: &[RigidBody], constraints: &[Constraint], friction: bool) -> Self {
-        let rubs = friction && constraints.iter().any(|constraint| constraint.friction.is_some());
+        let has_friction = friction && constraints.iter().any(|constraint| constraint.friction.is_some());
         Self {
             loads: vec![0.0; system.joints().len()],
-            levers: levers(system, bodies),
-            rubs,
-            weighs: rubs || constraints.iter().any(|constraint| constraint.breaking.is_some()),
+            tension_stiffness: tension_stiffness(system, bodies),
+            has_friction,
+            needed_at_substep_end: has_friction || constraints.iter().any(|constraint| constraint.breaking.is_some()),
         }
     }
 
     /// Notes what the joints carry by the last solve.
-    pub fn weigh(&mut self, system: &System) {
+    pub fn record(&mut self, system: &System) {
         system.weigh(&mut self.loads);
     }
 
@@ -48,18 +48,21 @@ impl JointLoads {
     /// ω² of the stiffest tension mode, 1/s²: a body that hangs by the arm r under the load λ swings about it with
     /// ω² = |λ| |r| / I⊥.
     pub fn stiffest(&self) -> f64 {
-        self.loads.iter().zip(&self.levers).fold(0.0, |most: f64, (load, lever)| most.max(load * lever))
+        self.loads
+            .iter()
+            .zip(&self.tension_stiffness)
+            .fold(0.0, |most: f64, (load, stiffness)| most.max(load * stiffness))
     }
 }
 
 /// ω² per N of load of each joint's tension mode: the greatest |r| / I⊥ of its bodies at the start, 1/(kg m). Arms and
 /// inertias turn with their body, so it stays what it is.
-fn levers(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
-    let lever = |body: usize, arm: DVec3| arm.length() / least_inertia_across(&bodies[body].inertia_world(), arm);
+fn tension_stiffness(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
+    let stiffness = |body: usize, arm: DVec3| arm.length() / least_inertia_across(&bodies[body].inertia_world(), arm);
     let of_joint = |index: usize| {
         let (arm_a, arm_b) = system.arms(index);
         let link = system.joints()[index].link;
-        let own = |body: usize, arm| if system.driven()[body] { 0.0 } else { lever(body, arm) };
+        let own = |body: usize, arm| if system.driven()[body] { 0.0 } else { stiffness(body, arm) };
         own(link.a, arm_a).max(link.b.map_or(0.0, |b| own(b, arm_b)))
     };
     (0..system.joints().len()).map(of_joint).collect()

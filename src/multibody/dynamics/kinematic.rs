@@ -132,7 +132,7 @@ impl KeyframeMotion {
 
 impl KinematicState {
     /// Puts a body there; answers the accelerations of its centre of mass (m/s²) and its rotation (rad/s²).
-    pub fn carry(&self, body: &mut RigidBody) -> (DVec3, DVec3) {
+    pub fn place(&self, body: &mut RigidBody) -> (DVec3, DVec3) {
         let arm = self.pose.rotation * body.properties.center;
         let (w, alpha) = (self.angular_velocity, self.angular_acceleration);
         body.rotation = self.pose.rotation;

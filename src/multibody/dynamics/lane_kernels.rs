@@ -7,7 +7,7 @@
 use fearless_simd::{Simd, dispatch};
 
 use super::forces;
-use super::substep_state::{Course, Rate, SLOWEST, advance, less, norm};
+use super::substep_state::{Rate, SLOWEST, SubstepState, advance, less, norm};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, Quad, State};
@@ -17,18 +17,18 @@ use soffio_math::lanes::{All, Four, Lanes, Real, V3};
 use soffio_math::spatial::Vec6;
 
 /// Something that is done to every quad in which somebody is awake.
-pub(super) trait Pass {
+pub(super) trait LaneKernel {
     /// Does it to the `index`th.
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize);
 }
 
 /// Does it to all quads of a system.
-pub(super) fn by_quads(system: &mut System, mut pass: impl Pass) {
-    dispatch!(system.quads().level(), simd => by_quads_in(simd, system, &mut pass));
+pub(super) fn run_kernel(system: &mut System, mut pass: impl LaneKernel) {
+    dispatch!(system.quads().level(), simd => run_kernel_in(simd, system, &mut pass));
 }
 
 #[inline(always)]
-fn by_quads_in<S: Simd>(simd: S, system: &mut System, pass: &mut impl Pass) {
+fn run_kernel_in<S: Simd>(simd: S, system: &mut System, pass: &mut impl LaneKernel) {
     for k in 0..system.quads().moving().len() {
         let index = system.quads().moving()[k];
         pass.go(All(simd), system, index);
@@ -55,41 +55,41 @@ pub(super) fn put<L: Lanes>(lanes: L, system: &mut System, index: usize, state: 
 }
 
 /// Notes where the bodies are: a substep begins.
-pub(super) struct Begin<'a> {
+pub(super) struct Save<'a> {
     pub bodies: &'a [RigidBody],
-    pub courses: &'a mut [Course],
+    pub states: &'a mut [SubstepState],
 }
 
-impl Pass for Begin<'_> {
+impl LaneKernel for Save<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let state = State::of(lanes, |k| &self.bodies[members.bodies[k]]);
-        self.courses[index].start.set(lanes, &state);
+        self.states[index].start.set(lanes, &state);
     }
 }
 
 /// Puts the bodies back to where the substep began.
-pub(super) struct Return<'a> {
+pub(super) struct Restore<'a> {
     pub bodies: &'a mut [RigidBody],
-    pub courses: &'a [Course],
+    pub states: &'a [SubstepState],
 }
 
-impl Pass for Return<'_> {
+impl LaneKernel for Restore<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
-        let state = self.courses[index].start.get(lanes);
+        let state = self.states[index].start.get(lanes);
         state.put(lanes, &members, self.bodies);
     }
 }
 
 /// Lets the bodies be where the quads are.
-pub(super) struct Show<'a> {
+pub(super) struct WriteBack<'a> {
     pub bodies: &'a mut [RigidBody],
 }
 
-impl Pass for Show<'_> {
+impl LaneKernel for WriteBack<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
@@ -99,11 +99,11 @@ impl Pass for Show<'_> {
 }
 
 /// Adds the change of velocities found last; the bodies follow.
-pub(super) struct Settle<'a> {
+pub(super) struct AddVelocityChange<'a> {
     pub bodies: &'a mut [RigidBody],
 }
 
-impl Pass for Settle<'_> {
+impl LaneKernel for AddVelocityChange<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
@@ -121,19 +121,19 @@ impl Pass for Settle<'_> {
 /// From one Runge–Kutta stage to the next: takes the rate at this one, of this weight, and goes on with it from the
 /// start over `h`.
 pub(super) struct Stage<'a> {
-    pub courses: &'a mut [Course],
+    pub states: &'a mut [SubstepState],
     pub first: bool,
     pub weight: f64,
     pub h: f64,
 }
 
-impl Pass for Stage<'_> {
+impl LaneKernel for Stage<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let a = accelerations(lanes, system, &members);
-        let course = &self.courses[index];
-        let start = course.start.get(lanes);
+        let substep = &self.states[index];
+        let start = substep.start.get(lanes);
         let (rate, mut mean) = if self.first {
             let zero = start.velocity.x.all(0.0);
             let none = V3 { x: zero, y: zero, z: zero };
@@ -141,46 +141,46 @@ impl Pass for Stage<'_> {
             (Rate::of(start.velocity, start.spin, none, a), mean)
         } else {
             let (velocity, spin) = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
-            (Rate::of(velocity, spin, course.turned.get(lanes), a), course.mean.get(lanes))
+            (Rate::of(velocity, spin, substep.turned.get(lanes), a), substep.mean.get(lanes))
         };
         mean.add(self.weight, &rate);
         let (state, turned) = advance(lanes, &start, self.h, &rate);
-        let course = &mut self.courses[index];
+        let substep = &mut self.states[index];
         if self.first {
-            course.begun.put(lanes, &a);
+            substep.begun.put(lanes, &a);
         }
-        course.mean.set(lanes, &mean);
-        course.turned.put(lanes, turned);
+        substep.mean.set(lanes, &mean);
+        substep.turned.put(lanes, turned);
         put(lanes, system, index, &state);
     }
 }
 
 /// From the last Runge–Kutta stage to the end of the substep of `h`.
 pub(super) struct Last<'a> {
-    pub courses: &'a mut [Course],
+    pub states: &'a mut [SubstepState],
     pub h: f64,
     /// Of the last rate.
     pub weight: f64,
 }
 
-impl Pass for Last<'_> {
+impl LaneKernel for Last<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let a = accelerations(lanes, system, &members);
-        let course = &self.courses[index];
-        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), course.turned.get(lanes), a);
-        let mut mean = course.mean.get(lanes);
+        let substep = &self.states[index];
+        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), substep.turned.get(lanes), a);
+        let mut mean = substep.mean.get(lanes);
         mean.add(self.weight, &rate);
-        let (state, _) = advance(lanes, &course.start.get(lanes), self.h, &mean);
-        self.courses[index].last.put(lanes, &a);
+        let (state, _) = advance(lanes, &substep.start.get(lanes), self.h, &mean);
+        self.states[index].last.put(lanes, &a);
         put(lanes, system, index, &state);
     }
 }
 
 /// What the new rate says of the error (`integrate.rs`): each body's share of the two sums.
 pub(super) struct Estimate<'a> {
-    pub courses: &'a mut [Course],
+    pub states: &'a mut [SubstepState],
     pub norms: &'a mut [[f64; 2]],
     pub per_cube: f64,
     pub spread: f64,
@@ -190,14 +190,14 @@ pub(super) struct Estimate<'a> {
     pub slot: usize,
 }
 
-impl Pass for Estimate<'_> {
+impl LaneKernel for Estimate<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
         let a = accelerations(lanes, system, &members);
-        let course = &self.courses[index];
-        let (last, before) = (course.last.get(lanes), course.fourth.get(lanes));
+        let substep = &self.states[index];
+        let (last, before) = (substep.last.get(lanes), substep.fourth.get(lanes));
         let (per_cube, spread) = (mass.all(self.per_cube), mass.all(self.spread));
         let fourth =
             Twist { linear: (a.linear - last.linear) * per_cube, angular: (a.angular - last.angular) * per_cube };
@@ -211,23 +211,23 @@ impl Pass for Estimate<'_> {
         let error = norm(mass, &inertia, &change);
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
-        let changed = less(a, course.begun.get(lanes));
-        let course = &mut self.courses[index];
-        course.differences[self.slot].put(lanes, &changed);
-        course.fourth.put(lanes, &fourth);
+        let changed = less(a, substep.begun.get(lanes));
+        let substep = &mut self.states[index];
+        substep.differences[self.slot].put(lanes, &changed);
+        substep.fourth.put(lanes, &fourth);
         let norms = &mut *self.norms;
         lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
     }
 }
 
 /// Gravity, damping, the gyroscopic torque and what comes from outside.
-pub(super) struct Push<'a> {
+pub(super) struct ApplyForces<'a> {
     pub external: &'a [Vec6],
     pub damping: &'a [[Four; 2]],
     pub gravity: DVec3,
 }
 
-impl Pass for Push<'_> {
+impl LaneKernel for ApplyForces<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
@@ -247,19 +247,19 @@ pub(super) type Stages = [Vec<Rate<Four>>; 3];
 
 /// The first guess of the three Gauss rates of a substep of `h`.
 pub(super) struct Guess<'a> {
-    pub courses: &'a [Course],
+    pub states: &'a [SubstepState],
     pub stages: &'a mut Stages,
     pub h: f64,
     /// Shares of the substep at which the rates are taken.
     pub nodes: [f64; 3],
 }
 
-impl Pass for Guess<'_> {
+impl LaneKernel for Guess<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let a = accelerations(lanes, system, &members);
-        let start = self.courses[index].start.get(lanes);
+        let start = self.states[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let rate = Rate::of(start.velocity, start.spin, V3 { x: zero, y: zero, z: zero }, a);
         // A body's velocity changes as its acceleration says, which is the better first guess.
@@ -275,16 +275,16 @@ impl Pass for Guess<'_> {
 
 /// From the start over `h` by these shares of the three Gauss rates.
 pub(super) struct Mean<'a> {
-    pub courses: &'a mut [Course],
+    pub states: &'a mut [SubstepState],
     pub stages: &'a Stages,
     pub weights: [f64; 3],
     pub h: f64,
 }
 
-impl Pass for Mean<'_> {
+impl LaneKernel for Mean<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let start = self.courses[index].start.get(lanes);
+        let start = self.states[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let none = V3 { x: zero, y: zero, z: zero };
         let mut mean = Rate { velocity: none, turn: none, acceleration: Twist { linear: none, angular: none } };
@@ -292,25 +292,25 @@ impl Pass for Mean<'_> {
             mean.add(weight, &rates[index].get(lanes));
         }
         let (state, turned) = advance(lanes, &start, self.h, &mean);
-        self.courses[index].turned.put(lanes, turned);
+        self.states[index].turned.put(lanes, turned);
         put(lanes, system, index, &state);
     }
 }
 
 /// Takes over the rate of a Gauss stage: by how much it changed and how large it is, in squares.
 pub(super) struct Compare<'a> {
-    pub courses: &'a [Course],
+    pub states: &'a [SubstepState],
     pub stages: &'a mut Stages,
     pub norms: &'a mut [[f64; 2]],
     pub stage: usize,
 }
 
-impl Pass for Compare<'_> {
+impl LaneKernel for Compare<'_> {
     #[inline(always)]
     fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let a = accelerations(lanes, system, &members);
-        let turned = self.courses[index].turned.get(lanes);
+        let turned = self.states[index].turned.get(lanes);
         let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), turned, a);
         let old = self.stages[self.stage][index].get(lanes);
         let (linear, angular) = (a.linear - old.acceleration.linear, a.angular - old.acceleration.angular);

@@ -22,7 +22,7 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::vec6;
 use soffio_math::{DVec3, Pose, acos};
 
-use super::contacts::Row;
+use super::contacts::JacobianRow;
 
 /// What approaches no faster than this does so by rounding, m/s or rad/s.
 const ROUNDED: f64 = 1e-15;
@@ -195,7 +195,7 @@ impl Limits {
     }
 
     /// What is left to a bound, its row, and where it acts.
-    pub fn row(&self, bound: usize, bodies: &[RigidBody]) -> (f64, Row, DVec3) {
+    pub fn row(&self, bound: usize, bodies: &[RigidBody]) -> (f64, JacobianRow, DVec3) {
         let Bound { limit, end, .. } = self.bounds[bound];
         let sign = match end {
             End::Least => 1.0,
@@ -203,7 +203,7 @@ impl Limits {
         };
         let two = self.bodies(bound);
         let middle = |body: Option<usize>| body.map_or(DVec3::ZERO, |i| bodies[i].position);
-        let mut row = Row::default();
+        let mut row = JacobianRow::default();
         let point = match &self.limits[limit].kind {
             LimitKind::Tilt { a, b, .. } => {
                 let across = aim(b.body, b.direction, bodies).cross(aim(a.body, a.direction, bodies));
@@ -238,7 +238,7 @@ impl Limits {
     }
 
     /// Adds `scale` times the row of a gauge.
-    fn add_gauge(&self, limit: usize, gauge: usize, scale: f64, bodies: &[RigidBody], row: &mut Row) {
+    fn add_gauge(&self, limit: usize, gauge: usize, scale: f64, bodies: &[RigidBody], row: &mut JacobianRow) {
         let Some(gauge) = &self.gauges[limit][gauge] else { return };
         let ((on, against), (first, second)) = (gauge.blocks(bodies), gauge.bodies());
         row.add(first, scale, &on);

@@ -46,7 +46,7 @@ impl Dynamics {
         mover: impl FnOnce(PositionStep),
     ) -> Option<usize> {
         self.wake_all();
-        let bad = self.restore_bad_bodies();
+        let bad = self.recover_bad_bodies();
         self.begin_step(dt);
         self.substeps = 1;
         let middle = self.time + 0.5 * dt;
@@ -75,7 +75,7 @@ impl Dynamics {
         }
         equations.springs.break_overloaded(&self.bodies, self.time + dt);
         let lost = self.end_step(dt, already, impacts);
-        self.start_anew();
+        self.restart();
         bad.or(lost)
     }
 }

@@ -97,8 +97,8 @@ impl Dynamics {
         self.substeps
     }
 
-    /// Operations of the last step, about: the same on every machine (`effort.rs`).
+    /// Operations of the last step, about: the same on every machine (`budget.rs`).
     pub fn operations(&self) -> u64 {
-        self.effort.spent()
+        self.budget.spent()
     }
 }

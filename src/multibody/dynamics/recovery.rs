@@ -17,23 +17,23 @@ pub(super) struct Recovery {
     /// Where the last step began.
     before: Vec<State<f64>>,
     /// Nothing has moved or set bodies since their numbers were looked at.
-    sane: bool,
+    validated: bool,
 }
 
 impl Recovery {
     /// For so many bodies.
     pub fn new(bodies: usize) -> Self {
-        Self { before: vec![State::default(); bodies], sane: false }
+        Self { before: vec![State::default(); bodies], validated: false }
     }
 
     /// Bodies move or are set: their numbers are to be looked at again.
-    pub fn doubt(&mut self) {
-        self.sane = false;
+    pub fn invalidate(&mut self) {
+        self.validated = false;
     }
 
     /// Notes where a step begins.
     pub fn begin_step(&mut self, bodies: &[RigidBody]) {
-        self.sane = false;
+        self.validated = false;
         for (before, body) in self.before.iter_mut().zip(bodies) {
             *before = State::of(One(0), |_| body);
         }
@@ -41,10 +41,10 @@ impl Recovery {
 
     /// Puts all bodies back to where the step began, at rest, if one has bad numbers. Returns the first such body.
     pub fn restore(&mut self, bodies: &mut [RigidBody]) -> Option<usize> {
-        if std::mem::replace(&mut self.sane, true) {
+        if std::mem::replace(&mut self.validated, true) {
             return None;
         }
-        let fault = bodies.iter().position(|body| !is_sane(body))?;
+        let fault = bodies.iter().position(|body| !is_valid(body))?;
         // One bad body has already pulled at its neighbours: the whole figure goes back.
         for (body, before) in bodies.iter_mut().zip(&self.before) {
             before.put(One(0), &Members::first(0), std::slice::from_mut(body));
@@ -54,7 +54,7 @@ impl Recovery {
     }
 }
 
-fn is_sane(body: &RigidBody) -> bool {
+fn is_valid(body: &RigidBody) -> bool {
     // What is no number is below nothing.
     body.velocity.length_squared() < SPEED_LIMIT * SPEED_LIMIT
         && body.angular_velocity.length_squared() < SPIN_LIMIT * SPIN_LIMIT

@@ -41,7 +41,7 @@ pub(super) struct Sleep {
     /// What is joined, and with it what leans on each other.
     joined: Groups,
     islands: Groups,
-    driven: Vec<bool>,
+    is_kinematic: Vec<bool>,
     /// ρ², m².
     gyration: Vec<f64>,
     /// Whether a body never sleeps, and whether its island cannot now, told by the first body.
@@ -58,7 +58,7 @@ impl Sleep {
     /// Nobody sleeps yet, nor ever if it is not `possible`.
     pub fn new(
         bodies: &[RigidBody],
-        driven: &[bool],
+        is_kinematic: &[bool],
         (constraints, limits, springs): (&[Constraint], &[Limit], &[Spring]),
         possible: bool,
     ) -> Self {
@@ -66,9 +66,9 @@ impl Sleep {
         let mut joined = Groups::new(n);
         let mut restless = vec![false; n];
         let mut tie = |touches: &dyn Fn(usize) -> bool, changes: bool| {
-            let held = || (0..n).filter(|&body| !driven[body] && touches(body));
+            let held = || (0..n).filter(|&body| !is_kinematic[body] && touches(body));
             joined.join_all(held());
-            if changes || (0..n).any(|body| driven[body] && touches(body)) {
+            if changes || (0..n).any(|body| is_kinematic[body] && touches(body)) {
                 held().for_each(|body| restless[body] = true);
             }
         };
@@ -95,7 +95,7 @@ impl Sleep {
             islands: joined.clone(),
             joined,
             gyration: bodies.iter().map(|body| trace(body) / (2.0 * body.properties.mass)).collect(),
-            driven: driven.to_vec(),
+            is_kinematic: is_kinematic.to_vec(),
             restless,
             stays: vec![false; n],
             quiet: vec![0.0; n],
@@ -148,16 +148,16 @@ impl Sleep {
     }
 
     /// Lets fall asleep what is quiet with all that leans on it. Did anything?
-    pub fn fall(&mut self, leaning: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
+    pub fn fall(&mut self, resting_pairs_bodies: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
         let n = self.asleep.len();
         let tired =
-            |sleep: &Self, body: usize| sleep.quiet[body] >= QUIET && !sleep.asleep[body] && !sleep.driven[body];
+            |sleep: &Self, body: usize| sleep.quiet[body] >= QUIET && !sleep.asleep[body] && !sleep.is_kinematic[body];
         if !(0..n).any(|body| tired(self, body)) {
             return false;
         }
-        self.look_for_islands(leaning);
+        self.look_for_islands(resting_pairs_bodies);
         for body in 0..n {
-            if !self.driven[body] && (self.restless[body] || self.quiet[body] < QUIET || self.stays[body]) {
+            if !self.is_kinematic[body] && (self.restless[body] || self.quiet[body] < QUIET || self.stays[body]) {
                 self.stays[self.islands.first(body)] = true;
             }
         }
@@ -172,11 +172,11 @@ impl Sleep {
     }
 
     /// Wakes a body with its island. Did it sleep?
-    pub fn wake(&mut self, body: usize, leaning: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
+    pub fn wake(&mut self, body: usize, resting_pairs_bodies: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
         if !self.asleep[body] {
             return false;
         }
-        self.look_for_islands(leaning);
+        self.look_for_islands(resting_pairs_bodies);
         let island = self.islands.first(body);
         for body in 0..self.asleep.len() {
             if self.asleep[body] && self.islands.first(body) == island {
@@ -203,12 +203,12 @@ impl Sleep {
     }
 
     /// Puts together what leans on each other; what lies on a driven body stays awake.
-    fn look_for_islands(&mut self, leaning: impl Iterator<Item = [Option<usize>; 2]>) {
+    fn look_for_islands(&mut self, resting_pairs_bodies: impl Iterator<Item = [Option<usize>; 2]>) {
         self.islands.copy(&self.joined);
         self.stays.fill(false);
-        for pair in leaning {
+        for pair in resting_pairs_bodies {
             let [Some(a), Some(b)] = pair else { continue };
-            match (self.driven[a], self.driven[b]) {
+            match (self.is_kinematic[a], self.is_kinematic[b]) {
                 (false, false) => self.islands.join(a, b),
                 (true, _) => self.stays[b] = true,
                 (_, true) => self.stays[a] = true,

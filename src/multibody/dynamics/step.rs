@@ -1,13 +1,13 @@
 //! One step of a figure, stage by stage.
 
-use super::contacts::{Contacts, Hit, Impact, LAST_PASS, Verdict};
-use super::equations::{Equations, Known};
+use super::contacts::{Contacts, EarliestImpact, Impact, LAST_PASS, PassOutcome};
+use super::equations::{Equations, Evaluated};
 use super::integrate::{Integration, Moving};
 use super::joint_loads::JointLoads;
 use super::recovery::Recovery;
 use super::settings::Settings;
 use super::sleep::Sleep;
-use super::work_budget::Effort;
+use super::work_budget::WorkBudget;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
@@ -24,7 +24,7 @@ const MOST_SUBSTEPS_OPEN: f64 = 16.0;
 /// Most edges of windows that one step stops at; those nearer to each other are stepped over.
 const MOST_EDGES: f64 = 1024.0;
 /// A hit's time is aimed at this often, until it is right to this, s.
-const AIMS: usize = 3;
+const MAX_AIMS: usize = 3;
 const ON_TIME: f64 = 1e-6;
 
 /// A figure in motion. Nothing here allocates after [`Dynamics::new`].
@@ -36,7 +36,7 @@ pub struct Dynamics {
     pub(super) equations: Equations,
     pub(super) integration: Integration,
     pub(super) contacts: Contacts,
-    pub(super) effort: Effort,
+    pub(super) budget: WorkBudget,
     pub(super) loads: JointLoads,
     pub(super) sleep: Sleep,
     pub(super) recovery: Recovery,
@@ -56,9 +56,9 @@ impl Dynamics {
     /// was put back.
     pub fn step(&mut self, dt: f64, external: &[Vec6], impacts: &mut Vec<Impact>) -> Option<usize> {
         // Whoever sets bodies from outside may have set them wrong.
-        let bad = self.restore_bad_bodies();
+        let bad = self.recover_bad_bodies();
         self.equations.wrenches.given.copy_from_slice(external);
-        self.wake_what_is_pushed();
+        self.wake_pushed_bodies();
         self.begin_step(dt);
         let already = impacts.len();
         let mut done = 0.0;
@@ -67,16 +67,19 @@ impl Dynamics {
                 break;
             }
             let now = self.time + done;
-            self.find_first_rates(now);
-            let together = self.effort.is_spent() && !self.contacts.is_empty();
+            self.evaluate_first_stage(now);
+            let together = self.budget.is_exhausted() && !self.contacts.is_empty();
             let h = self.next_substep(now, dt - done, (dt, together));
             self.set_shares(now + 0.5 * h);
-            done +=
-                if together { self.substep_together(h, dt, done, impacts) } else { self.substep(h, dt, done, impacts) };
+            done += if together {
+                self.substep_time_stepping(h, dt, done, impacts)
+            } else {
+                self.substep(h, dt, done, impacts)
+            };
             self.substeps += 1;
         }
-        if self.loads.rubs && self.bodies.iter().all(RigidBody::is_finite) {
-            self.equations.rub(&mut self.bodies, self.loads.all(), dt);
+        if self.loads.has_friction && self.bodies.iter().all(RigidBody::is_finite) {
+            self.equations.apply_pivot_friction(&mut self.bodies, self.loads.all(), dt);
         }
         let lost = self.end_step(dt, already, impacts);
         self.fall_asleep(dt);
@@ -88,17 +91,17 @@ impl Dynamics {
         self.recovery.begin_step(&self.bodies);
         self.integration.begin_step(dt);
         self.contacts.begin_step(self.time);
-        self.effort.begin_step();
-        self.begin_happenings();
+        self.budget.begin_step();
+        self.begin_events();
         self.substeps = 0;
     }
 
     /// What the joints carry says how long a substep may be; the rate is its first stage.
-    fn find_first_rates(&mut self, now: f64) {
-        if self.equations.known < Known::Rates {
-            self.press();
-            self.equations.ensure_rates(&mut self.bodies, now);
-            self.loads.weigh(&self.equations.system);
+    fn evaluate_first_stage(&mut self, now: f64) {
+        if self.equations.evaluated < Evaluated::Accelerations {
+            self.apply_contact_forces();
+            self.equations.ensure_accelerations(&mut self.bodies, now);
+            self.loads.record(&self.equations.system);
         }
     }
 
@@ -123,72 +126,72 @@ impl Dynamics {
         }
         let now = self.time + done;
         let least = self.shortest_substep(dt);
-        let mut used = self.hold(now, h, least, false);
+        let mut used = self.integrate_substep(now, h, least, false);
         if collides {
             if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
                 let until;
-                (used, until) = self.aim_at(&hit, now, used, least);
+                (used, until) = self.integrate_to_impact(&hit, now, used, least);
                 // A substep that had to be shorter still comes upon the hit again.
                 if used >= until {
-                    self.resolve(&hit, (done + used, h), impacts);
+                    self.resolve_impact(&hit, (done + used, h), impacts);
                 }
             }
-            while let Some(body) = self.contacts.leant_on() {
+            while let Some(body) = self.contacts.disturbed_sleeper() {
                 self.wake(body);
             }
             self.contacts.end_substep(&self.bodies);
         }
-        self.weigh_joints(now + used);
+        self.record_joint_loads(now + used);
         self.break_overloaded(now + used);
         used
     }
 
     /// Integrates `h` seconds or less (where the error asks for it) as if nothing were in the way, puts right at their end what met
     /// or rests, and returns the time used.
-    fn substep_together(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
+    fn substep_time_stepping(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
         let now = self.time + done;
         let least = self.shortest_substep(dt);
         let (integration, mut moving) = self.moving();
         integration.begin_substep(&mut moving);
         self.before.copy_from_slice(&self.bodies);
         self.contacts.begin_substep();
-        self.contacts.lay_out_once(h, &self.equations.system);
-        self.press();
+        self.contacts.prepare_contact_forces_once(h, &self.equations.system);
+        self.apply_contact_forces();
         let (integration, mut moving) = self.moving();
         let h = integration.integrate(&mut moving, now, h, least);
         while self.sleep.any()
-            && let Some(body) = self.contacts.met_asleep(&self.before, &self.bodies)
+            && let Some(body) = self.contacts.sleeper_hit(&self.before, &self.bodies)
         {
             self.wake(body);
         }
         self.equations.prepare_impulses(&self.bodies);
         let Self { equations, contacts, bodies, before, .. } = self;
-        contacts.settle_together((done, h), before, &mut equations.system, bodies, impacts);
-        contacts.take_hold(h, &mut equations.system, bodies);
+        contacts.finish_time_step((done, h), before, &mut equations.system, bodies, impacts);
+        contacts.stick(h, &mut equations.system, bodies);
         self.equations.project(&mut self.bodies);
         self.integration.interrupt();
         self.sleep.keep(&mut self.bodies, &self.before);
-        while let Some(body) = self.contacts.leant_on() {
+        while let Some(body) = self.contacts.disturbed_sleeper() {
             self.wake(body);
         }
         self.contacts.end_substep(&self.bodies);
-        self.weigh_joints(now + h);
+        self.record_joint_loads(now + h);
         self.break_overloaded(now + h);
-        self.effort.note(self.bodies.len(), self.contacts.take_effort());
+        self.budget.record_pass(self.bodies.len(), self.contacts.take_operations());
         h
     }
 
     /// Goes through a substep of `whole` seconds again, up to a hit on its way. Returns the time used, and the time aimed at.
-    fn aim_at(&mut self, hit: &Hit, now: f64, whole: f64, least: f64) -> (f64, f64) {
+    fn integrate_to_impact(&mut self, hit: &EarliestImpact, now: f64, whole: f64, least: f64) -> (f64, f64) {
         let (mut used, mut until) = (whole, whole * hit.s);
-        for aim in 1..=AIMS {
+        for aim in 1..=MAX_AIMS {
             self.back_to_start();
             self.contacts.cut_substep();
             // Shorter than what went well: it goes well.
-            used = if until > 0.0 { self.hold(now, until, least.min(until), true) } else { 0.0 };
-            let early = self.contacts.early(hit, &self.bodies);
+            used = if until > 0.0 { self.integrate_substep(now, until, least.min(until), true) } else { 0.0 };
+            let early = self.contacts.time_to_contact(hit, &self.bodies);
             let better = (until + early).clamp(0.0, whole);
-            if aim == AIMS || used < until || (better - until).abs() < ON_TIME {
+            if aim == MAX_AIMS || used < until || (better - until).abs() < ON_TIME {
                 break;
             }
             until = better;
@@ -197,47 +200,47 @@ impl Dynamics {
     }
 
     /// Resolves a hit where the bodies are; `at` is its time in the step and the length of a substep.
-    fn resolve(&mut self, hit: &Hit, at: (f64, f64), impacts: &mut Vec<Impact>) {
+    fn resolve_impact(&mut self, hit: &EarliestImpact, at: (f64, f64), impacts: &mut Vec<Impact>) {
         self.wake_for(hit);
         self.equations.prepare_impulses(&self.bodies);
-        self.contacts.resolve_hit(hit, at, &mut self.equations.system, &mut self.bodies, impacts);
+        self.contacts.resolve_impact(hit, at, &mut self.equations.system, &mut self.bodies, impacts);
         self.integration.interrupt();
     }
 
     /// Notes what the joints carry at the end of a substep, as far as that is known or asked.
-    fn weigh_joints(&mut self, t: f64) {
-        if self.loads.weighs {
+    fn record_joint_loads(&mut self, t: f64) {
+        if self.loads.needed_at_substep_end {
             // What the joints carry: the last solve was of impulses, or before the substep's end.
-            self.press();
-            self.equations.ensure_rates(&mut self.bodies, t);
+            self.apply_contact_forces();
+            self.equations.ensure_accelerations(&mut self.bodies, t);
         }
-        if self.equations.known == Known::Rates {
-            self.loads.weigh(&self.equations.system);
+        if self.equations.evaluated == Evaluated::Accelerations {
+            self.loads.record(&self.equations.system);
         }
     }
 
     /// Integrates like [`Integration::integrate`] under the forces that hold what rests, again where they prove wrong or a clutch
     /// gives way; `sure` says that the error need not be asked.
-    fn hold(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
+    fn integrate_substep(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
         self.contacts.begin_substep();
         let mut pass = 1;
         loop {
-            self.contacts.lay_out(h, &self.equations.system);
-            self.press();
+            self.contacts.prepare_contact_forces(h, &self.equations.system);
+            self.apply_contact_forces();
             let (integration, mut moving) = self.moving();
             h = integration.integrate(&mut moving, t, h, if sure || pass > 1 { h } else { least });
             // A pass more would be too much: the forces are as good as they get.
-            let last = self.effort.is_spent();
-            let verdict = self.settle(h, if last { LAST_PASS } else { pass }, if last { h } else { least });
-            self.effort.note(self.bodies.len(), self.contacts.take_effort());
+            let last = self.budget.is_exhausted();
+            let verdict = self.finish_pass(h, if last { LAST_PASS } else { pass }, if last { h } else { least });
+            self.budget.record_pass(self.bodies.len(), self.contacts.take_operations());
             match verdict {
-                Verdict::Again => pass += 1,
-                Verdict::Shorter => (h, pass) = (0.5 * h, 1),
-                Verdict::Slips => {
+                PassOutcome::Repeat => pass += 1,
+                PassOutcome::Shorten => (h, pass) = (0.5 * h, 1),
+                PassOutcome::ClutchSlips => {
                     self.integration.interrupt();
                     pass = 1;
                 }
-                Verdict::Stands { .. } => {
+                PassOutcome::Accepted { .. } => {
                     self.sleep.keep(&mut self.bodies, &self.before);
                     return h;
                 }
@@ -247,24 +250,24 @@ impl Dynamics {
     }
 
     /// Looks what a pass over a substep of `h` seconds has come to, and puts right what rests.
-    fn settle(&mut self, h: f64, pass: usize, least: f64) -> Verdict {
+    fn finish_pass(&mut self, h: f64, pass: usize, least: f64) -> PassOutcome {
         let Self { equations, contacts, bodies, before, .. } = self;
-        let rests = contacts.anything_rests();
-        let verdict = contacts.settle((h, pass, h > 2.0 * least), before, &mut equations.system, bodies);
+        let rests = contacts.has_resting_contacts();
+        let verdict = contacts.finish_pass((h, pass, h > 2.0 * least), before, &mut equations.system, bodies);
         if !rests {
             return verdict;
         }
         // Rows and factor of the substep's end serve: joints have closed since by less than what matters to them.
-        equations.known = Known::Nothing;
-        if let Verdict::Stands { moved } = verdict {
+        equations.evaluated = Evaluated::Nothing;
+        if let PassOutcome::Accepted { moved } = verdict {
             // Contacts move bodies by first-order steps through the joints: what is left of second order goes here.
             if moved {
                 equations.project(bodies)
             } else {
-                equations.look_at_rates(bodies)
+                equations.take_over_state(bodies)
             }
-            if contacts.take_hold(h, &mut equations.system, bodies) {
-                equations.known = Known::Nothing;
+            if contacts.stick(h, &mut equations.system, bodies) {
+                equations.evaluated = Evaluated::Nothing;
                 self.integration.interrupt();
             }
         }
@@ -272,10 +275,10 @@ impl Dynamics {
     }
 
     /// All wrenches: those from outside, and those of what rests.
-    fn press(&mut self) {
+    fn apply_contact_forces(&mut self) {
         let contacts = &self.contacts;
-        if self.equations.wrenches.sum_up(|wrenches| contacts.press(wrenches)) {
-            self.equations.known = self.equations.known.min(Known::Factor);
+        if self.equations.wrenches.sum_up(|wrenches| contacts.apply_contact_forces(wrenches)) {
+            self.equations.evaluated = self.equations.evaluated.min(Evaluated::Factor);
         }
     }
 
@@ -295,8 +298,9 @@ impl Dynamics {
     fn substep_length(&self, dt: f64, together: bool) -> f64 {
         let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let spin = spins.fold(0.0, f64::max);
-        let mut longest =
-            (TENSION_PHASE / self.loads.stiffest().sqrt()).min(SPIN_PHASE / spin.sqrt()).min(self.integration.stride);
+        let mut longest = (TENSION_PHASE / self.loads.stiffest().sqrt())
+            .min(SPIN_PHASE / spin.sqrt())
+            .min(self.integration.suggested_step);
         longest = longest.min(self.contacts.longest_substep(together));
         longest.max(self.shortest_substep(dt))
     }
@@ -307,15 +311,15 @@ impl Dynamics {
     }
 
     /// Joints or what acts on them have changed: all wake, and nothing goes on from what was.
-    fn change_joints(&mut self) {
+    fn joints_changed(&mut self) {
         self.wake_all();
         self.integration.interrupt();
-        self.equations.known = Known::Nothing;
+        self.equations.evaluated = Evaluated::Nothing;
     }
 
     fn set_shares(&mut self, t: f64) {
         if self.equations.system.activity.set_shares(t) | self.equations.springs.activity.set_shares(t) {
-            self.change_joints();
+            self.joints_changed();
         }
     }
 
@@ -333,13 +337,13 @@ impl Dynamics {
             system.activity.mended(index, together);
             if system.activity.overloaded(index, load, false) {
                 system.activity.break_at(index, t);
-                self.change_joints();
+                self.joints_changed();
             }
         }
     }
 
     /// Forgets what happened in the last step, and fires the triggers that waited for this step's breath.
-    fn begin_happenings(&mut self) {
+    fn begin_events(&mut self) {
         let [before, speed] = self.breath;
         for activity in [&mut self.equations.system.activity, &mut self.equations.springs.activity] {
             activity.breaks.clear();
@@ -359,7 +363,7 @@ impl Dynamics {
             }
         }
         self.time += dt;
-        let lost = self.restore_bad_bodies();
+        let lost = self.recover_bad_bodies();
         if lost.is_some() {
             // What went wrong did not happen.
             impacts.truncate(already);
@@ -372,27 +376,27 @@ impl Dynamics {
     /// Puts the figure back to where the last step began if a body has bad numbers; returns the first such body. A step
     /// begins with it: whoever looks at the bodies before that, and may have set them, calls it himself.
     pub fn recover(&mut self) -> Option<usize> {
-        self.restore_bad_bodies()
+        self.recover_bad_bodies()
     }
 
     /// Puts bodies with bad numbers back to where the step began, at rest. Returns the first of them.
-    pub(super) fn restore_bad_bodies(&mut self) -> Option<usize> {
+    pub(super) fn recover_bad_bodies(&mut self) -> Option<usize> {
         let fault = self.recovery.restore(&mut self.bodies);
         if fault.is_some() {
             self.wake_all();
-            self.start_anew();
+            self.restart();
         }
         fault
     }
 
     /// The laws start anew from where the bodies are.
-    pub(super) fn start_anew(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.equations.system.begin_trains(&self.bodies);
         self.contacts.forget(&self.bodies);
-        self.contacts.find_rest(&self.bodies);
+        self.contacts.find_resting_contacts(&self.bodies);
         self.loads.forget();
-        self.integration.begin_anew();
-        self.equations.known = Known::Nothing;
+        self.integration.reset();
+        self.equations.evaluated = Evaluated::Nothing;
     }
 
     /// Sets the breath's speed at the lips from the next step on, m/s; triggers wait for it.
@@ -403,7 +407,7 @@ impl Dynamics {
     /// Says that bodies were moved from outside.
     pub fn disturb(&mut self) {
         self.wake_all();
-        self.equations.known = Known::Nothing;
-        self.recovery.doubt();
+        self.equations.evaluated = Evaluated::Nothing;
+        self.recovery.invalidate();
     }
 }

@@ -91,7 +91,7 @@ impl Rate<Four> {
 
 /// What four bodies go through in a substep.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Course {
+pub(super) struct SubstepState {
     /// Where it began.
     pub start: State<Four>,
     /// Sum of the rates so far, by their weights.

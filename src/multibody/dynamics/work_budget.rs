@@ -10,35 +10,35 @@
 //! has bounds of its own (`contacts/newton.rs`).
 
 /// Operations of a step, at most, but for the substep that ends it: one to two milliseconds of a processor of 2020.
-const ALLOWED: u64 = 3_000_000;
+const STEP_OPERATIONS: u64 = 3_000_000;
 /// Operations of a pass over one body with its joints, of a touch with its points, of a touch in a step of Newton's method beside the factor, and
 /// in a sweep.
-const BODY: u64 = 4_000;
-pub(super) const TOUCH: u64 = 2_500;
-pub(super) const SOLVED: u64 = 1_500;
-pub(super) const SWEPT: u64 = 500;
+const BODY_OPERATIONS: u64 = 4_000;
+pub(super) const CONTACT_OPERATIONS: u64 = 2_500;
+pub(super) const NEWTON_CONTACT_OPERATIONS: u64 = 1_500;
+pub(super) const SWEEP_CONTACT_OPERATIONS: u64 = 500;
 /// Passes that a substep with contacts takes, about: it is looked at, put right, and cut at an impact.
 const PASSES: u64 = 3;
 
 /// The work of a step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Effort {
+pub(super) struct WorkBudget {
     spent: u64,
     /// Of the last pass, and of the dearest one of the step before.
     pass: u64,
-    dearest: u64,
+    largest_pass: u64,
 }
 
-impl Effort {
+impl WorkBudget {
     /// Begins a step.
     pub fn begin_step(&mut self) {
-        *self = Self { spent: 0, pass: self.dearest.max(self.pass) / 2, dearest: 0 };
+        *self = Self { spent: 0, pass: self.largest_pass.max(self.pass) / 2, largest_pass: 0 };
     }
 
     /// Notes a pass over so many bodies, and so many operations of contacts.
-    pub fn note(&mut self, bodies: usize, contacts: u64) {
-        self.pass = bodies as u64 * BODY + contacts;
-        self.dearest = self.dearest.max(self.pass);
+    pub fn record_pass(&mut self, bodies: usize, contacts: u64) {
+        self.pass = bodies as u64 * BODY_OPERATIONS + contacts;
+        self.largest_pass = self.largest_pass.max(self.pass);
         self.spent += self.pass;
     }
 
@@ -48,7 +48,7 @@ impl Effort {
     }
 
     /// Would a substep with all its passes be too much?
-    pub fn is_spent(&self) -> bool {
-        self.spent + PASSES * self.pass > ALLOWED
+    pub fn is_exhausted(&self) -> bool {
+        self.spent + PASSES * self.pass > STEP_OPERATIONS
     }
 }

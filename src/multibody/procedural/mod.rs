@@ -162,7 +162,7 @@ impl Procedural {
         let Settings { method, retention, .. } = self.settings;
         self.fours.update(moved, dt, retention, method == Method::TreeSolve);
         for drive in moved.kinematic_bodies {
-            drive.motion.at(moved.until).carry(&mut moved.bodies[drive.body]);
+            drive.motion.at(moved.until).place(&mut moved.bodies[drive.body]);
             moved.system.quads_mut().look_at(drive.body, &moved.bodies[drive.body]);
         }
     }

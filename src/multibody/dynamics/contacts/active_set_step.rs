@@ -16,14 +16,14 @@
 //! steps, cut by a search along them, always arrive; but what slides lifts off. Where each goes on as it does now, sliding is exact
 //! and convergence quadratic; but a step may be too long, and is halved until g gets less.
 
-use super::contact_law::Doing;
-use super::contact_solver::{Iterate, Newton, View, add_transposed, times};
+use super::contact_law::ActiveBranch;
+use super::contact_solver::{ContactSolver, Iterate, ProblemView, add_transposed, times};
 use super::islands::Island;
-use crate::dynamics::work_budget::SOLVED;
+use crate::dynamics::work_budget::NEWTON_CONTACT_OPERATIONS;
 use soffio_math::{DMat3, DVec3};
 
 /// Newton's steps of a leap at most, and the share of what was missed that a gradient may leave.
-const LEAP_STEPS: usize = 20;
+const MAX_NEWTON_STEPS: usize = 20;
 const FLAT: f64 = 0.01;
 /// It stands still, or has come to rounding, where so many steps each leave more than this share of it.
 const IDLE: usize = 2;
@@ -36,47 +36,47 @@ const LESS: f64 = 0.1;
 
 /// How touches are taken in a leap: each may do anything, as far as that is convex, or goes on as now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Leap {
+pub(super) enum ActiveSetKind {
     Convex,
     AsNow,
 }
 
-impl Newton {
+impl ContactSolver {
     /// Solves for all touches at once, each as soft as this, from where they stand. Answers whether that brought them nearer
     /// to their laws; else they stay as they were.
-    pub(super) fn leap(
+    pub(super) fn active_set_step(
         &mut self,
-        view: View,
+        view: ProblemView,
         island: &Island,
-        (kind, softness): (Leap, f64),
+        (kind, softness): (ActiveSetKind, f64),
         left: &mut usize,
     ) -> bool {
-        let own = &view.islands.touches[island.touches.clone()];
+        let own = &view.islands.contacts[island.contacts.clone()];
         let all = island.coordinates.clone();
         self.follow(view, island);
         let missed = self.missed(view, own);
-        for &touch in own {
-            let iterate = &mut self.iterates[touch];
+        for &contact in own {
+            let iterate = &mut self.iterates[contact];
             let Iterate { law, answer, p, u, .. } = &*iterate;
-            iterate.doing = match kind {
-                Leap::Convex => law.may_do(answer, *p, iterate.over(*u)),
-                Leap::AsNow => law.doing(answer, *p, iterate.over(*u)),
+            iterate.branch = match kind {
+                ActiveSetKind::Convex => law.convex_branch(answer, *p, iterate.over(*u)),
+                ActiveSetKind::AsNow => law.active_branch(answer, *p, iterate.over(*u)),
             };
             (iterate.from, iterate.rho) = (iterate.u, (softness * iterate.answer.most()).recip());
         }
-        let effort = self.step_effort(view, island);
+        let operations = self.newton_step_operations(view, island);
         let mut size = self.find_gradient(view, island);
         let (mut least, mut idle) = (size, 0);
         // A velocity of touches is at most √k times what z lacks.
-        let k = own.iter().fold(0.0, |most: f64, &touch| most.max(self.iterates[touch].answer.most()));
+        let k = own.iter().fold(0.0, |most: f64, &contact| most.max(self.iterates[contact].answer.most()));
         let flat = FLAT * missed / k.sqrt();
-        for step in 0..LEAP_STEPS {
+        for step in 0..MAX_NEWTON_STEPS {
             if size <= flat || *left == 0 || idle == IDLE {
                 break;
             }
             *left -= 1;
-            self.effort += effort;
-            let same = |touch: &usize| self.iterates[*touch].d == self.iterates[*touch].factored;
+            self.operations += operations;
+            let same = |contact: &usize| self.iterates[*contact].d == self.iterates[*contact].factored;
             if step == 0 || !own.iter().all(same) {
                 self.factor(view, island);
             }
@@ -84,41 +84,41 @@ impl Newton {
                 *step = -g;
             }
             self.h.solve(&mut self.step[all.clone()]);
-            for &touch in own {
-                self.iterates[touch].along = times(view, touch, &self.step);
+            for &contact in own {
+                self.iterates[contact].along = times(view, contact, &self.step);
             }
             size = match kind {
-                Leap::Convex => self.go_down(view, island),
-                Leap::AsNow => self.go(view, island, size),
+                ActiveSetKind::Convex => self.go_down(view, island),
+                ActiveSetKind::AsNow => self.go(view, island, size),
             };
             idle = if size > LITTLE * least { idle + 1 } else { 0 };
             least = least.min(size);
         }
-        for &touch in own {
-            self.renew_law(view, touch);
-            let iterate = &mut self.iterates[touch];
-            (iterate.p, iterate.plus) = (iterate.law.allowed(iterate.plus), iterate.p);
+        for &contact in own {
+            self.renew_law(view, contact);
+            let iterate = &mut self.iterates[contact];
+            (iterate.p, iterate.plus) = (iterate.law.project(iterate.plus), iterate.p);
         }
         self.follow(view, island);
         let better = self.missed(view, own) < missed;
         if !better {
-            own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].plus);
+            own.iter().for_each(|&contact| self.iterates[contact].p = self.iterates[contact].plus);
             self.follow(view, island);
         }
         better
     }
 
     /// P⁺, D and g where things stand. Answers |g|.
-    fn find_gradient(&mut self, view: View, island: &Island) -> f64 {
+    fn find_gradient(&mut self, view: ProblemView, island: &Island) -> f64 {
         let all = island.coordinates.clone();
         self.gradient[all.clone()].fill(0.0);
-        for &touch in &view.islands.touches[island.touches.clone()] {
+        for &contact in &view.islands.contacts[island.contacts.clone()] {
             // A point stands before its couple.
-            let press = view.touches[touch].twist.map_or(0.0, |twist| self.iterates[twist.of].plus.x);
-            let iterate = &mut self.iterates[touch];
+            let press = view.contacts[contact].twist.map_or(0.0, |twist| self.iterates[twist.of].plus.x);
+            let iterate = &mut self.iterates[contact];
             let Iterate { rho, p, u, from, .. } = *iterate;
-            (iterate.plus, iterate.d) = iterate.doing.soft(rho, p, (iterate.over(u), u - from), press);
-            add_transposed(view, touch, iterate.before - iterate.plus, &mut self.gradient);
+            (iterate.plus, iterate.d) = iterate.branch.regularized(rho, p, (iterate.over(u), u - from), press);
+            add_transposed(view, contact, iterate.before - iterate.plus, &mut self.gradient);
         }
         let mut square = 0.0;
         for (g, z) in self.gradient[all.clone()].iter_mut().zip(&self.z[all]) {
@@ -129,7 +129,7 @@ impl Newton {
     }
 
     /// Goes along the step as far as the gradient, of this size, gets less. Answers its size there.
-    fn go(&mut self, view: View, island: &Island, size: f64) -> f64 {
+    fn go(&mut self, view: ProblemView, island: &Island, size: f64) -> f64 {
         let all = island.coordinates.clone();
         let (mut far, mut gone, mut left) = (1.0, 0.0, size);
         for _ in 0..HALVINGS {
@@ -137,8 +137,8 @@ impl Newton {
             for (z, s) in self.z[all.clone()].iter_mut().zip(&self.step[all.clone()]) {
                 *z += more * s;
             }
-            for &touch in &view.islands.touches[island.touches.clone()] {
-                let iterate = &mut self.iterates[touch];
+            for &contact in &view.islands.contacts[island.contacts.clone()] {
+                let iterate = &mut self.iterates[contact];
                 iterate.u += more * iterate.along;
             }
             gone = far;
@@ -152,8 +152,8 @@ impl Newton {
     }
 
     /// Goes along the step to where the function whose gradient it is is least, about. Answers the size of the gradient there.
-    fn go_down(&mut self, view: View, island: &Island) -> f64 {
-        let own = &view.islands.touches[island.touches.clone()];
+    fn go_down(&mut self, view: ProblemView, island: &Island) -> f64 {
+        let own = &view.islands.contacts[island.contacts.clone()];
         let all = island.coordinates.clone();
         let (mut linear, mut square) = (0.0, 0.0);
         for (z, s) in self.z[all.clone()].iter().zip(&self.step[all.clone()]) {
@@ -162,10 +162,10 @@ impl Newton {
         }
         let iterates = &self.iterates;
         let slope = |far: f64| {
-            own.iter().fold(linear + far * square, |sum, &touch| {
-                let i = &iterates[touch];
+            own.iter().fold(linear + far * square, |sum, &contact| {
+                let i = &iterates[contact];
                 let u = i.u + far * i.along;
-                let (plus, _) = i.doing.soft(i.rho, i.p, (i.over(u), u - i.from), 0.0);
+                let (plus, _) = i.branch.regularized(i.rho, i.p, (i.over(u), u - i.from), 0.0);
                 sum - i.along.dot(plus - i.before)
             })
         };
@@ -193,15 +193,15 @@ impl Newton {
         for (z, s) in self.z[all.clone()].iter_mut().zip(&self.step[all]) {
             *z += far * s;
         }
-        for &touch in own {
-            let iterate = &mut self.iterates[touch];
+        for &contact in own {
+            let iterate = &mut self.iterates[contact];
             iterate.u += far * iterate.along;
         }
         self.find_gradient(view, island)
     }
 
     /// Operations of one of Newton's steps, about.
-    pub(super) fn step_effort(&self, view: View, island: &Island) -> u64 {
+    pub(super) fn newton_step_operations(&self, view: ProblemView, island: &Island) -> u64 {
         let base = island.coordinates.start;
         let length = |&node: &usize| {
             let (size, place) = (view.coordinates.nodes[node].size, view.islands.place[node] - base);
@@ -209,12 +209,12 @@ impl Newton {
             2 * (size * row * row) as u64
         };
         let rows: u64 = view.islands.order_of(island).iter().map(length).sum();
-        rows + SOLVED * island.touches.len() as u64
+        rows + NEWTON_CONTACT_OPERATIONS * island.contacts.len() as u64
     }
 
     /// H and its factor.
-    fn factor(&mut self, view: View, island: &Island) {
-        let View { coordinates, islands, .. } = view;
+    fn factor(&mut self, view: ProblemView, island: &Island) {
+        let ProblemView { coordinates, islands, .. } = view;
         let base = island.coordinates.start;
         let order = islands.order_of(island);
         self.h.begin(order.iter().flat_map(|&node| {
@@ -224,18 +224,18 @@ impl Newton {
         for row in 0..island.coordinates.len() {
             self.h.arms(row, row).1[0] = 1.0;
         }
-        for &touch in &islands.touches[island.touches.clone()] {
-            self.iterates[touch].factored = self.iterates[touch].d;
-            let Iterate { d, doing, .. } = self.iterates[touch];
+        for &contact in &islands.contacts[island.contacts.clone()] {
+            self.iterates[contact].factored = self.iterates[contact].d;
+            let Iterate { d, branch, .. } = self.iterates[contact];
             if d != DMat3::ZERO {
-                self.add_product(view, base, (touch, touch), d);
+                self.add_product(view, base, (contact, contact), d);
             }
-            if let (Some(twist), Doing::Follows { along, .. }) = (view.touches[touch].twist, doing)
+            if let (Some(twist), ActiveBranch::Follows { along, .. }) = (view.contacts[contact].twist, branch)
                 && along != DVec3::ZERO
             {
                 let press = self.iterates[twist.of].d.row(0);
                 let with_press = DMat3::from_cols(press.x * along, press.y * along, press.z * along);
-                self.add_product(view, base, (touch, twist.of), with_press);
+                self.add_product(view, base, (contact, twist.of), with_press);
             }
         }
         self.h.factor();
@@ -244,13 +244,13 @@ impl Newton {
     /// Adds Bₐᵀ D B_b of two touches with the same parts to H, whose coordinates begin at `base`.
     fn add_product(
         &mut self,
-        View { touches, coordinates, islands }: View,
+        ProblemView { contacts, coordinates, islands }: ProblemView,
         base: usize,
         (a, b): (usize, usize),
         d: DMat3,
     ) {
-        let (a, b) = (&touches[a], &touches[b]);
-        let [parts_a, parts_b] = [a, b].map(|touch| coordinates.parts_of(touch));
+        let (a, b) = (&contacts[a], &contacts[b]);
+        let [parts_a, parts_b] = [a, b].map(|contact| coordinates.parts_of(contact));
         for (p, p_b) in parts_a.iter().zip(parts_b) {
             debug_assert_eq!(p.node, p_b.node);
             let size_p = coordinates.nodes[p.node].size;

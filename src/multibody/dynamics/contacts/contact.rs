@@ -1,6 +1,6 @@
 //! Touches: the points, bounds, couples and clutches that a contact problem solves for.
 
-use super::contact_law::Answer;
+use super::contact_law::EffectiveInverseMass;
 use soffio_math::{DMat3, DVec3};
 
 /// Share of the largest velocities that an impulse makes which is rounding.
@@ -24,7 +24,7 @@ pub(super) enum Source {
 
 /// A touching point or a reached bound.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Touch {
+pub(super) struct Contact {
     pub source: Source,
     /// World point, m.
     pub point: DVec3,
@@ -54,10 +54,10 @@ pub(super) struct Touch {
     /// Its parts among the coordinates, from the first to the one after the last.
     pub(super) parts: (usize, usize),
     /// What it answers to its own impulse.
-    pub answer: Answer,
+    pub answer: EffectiveInverseMass,
 }
 
-impl Touch {
+impl Contact {
     /// A touch without impulse.
     pub fn new(source: Source, point: DVec3, normal: DVec3, gap: f64, friction: f64) -> Self {
         Self {
@@ -76,7 +76,7 @@ impl Touch {
             first: 0,
             rows: 0,
             parts: (0, 0),
-            answer: Answer::default(),
+            answer: EffectiveInverseMass::default(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The forces that hold what rests, from one substep to the next: where they act, and how their levers move with the bodies.
 
-use super::contact::{Source, Touch};
-use super::contact_problem::Problem;
+use super::contact::{Contact, Source};
+use super::contact_problem::ContactProblem;
 use super::jacobian_row::MAX_ROW_BODIES;
 use crate::articulation::System;
 use crate::dynamics::clutches::Clutches;
@@ -25,7 +25,7 @@ const MOST_KEPT: usize = 1024;
 
 /// Force that holds a touch, from the last substep that it was needed in.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Held {
+pub(super) struct ContactForce {
     pub source: Source,
     /// Is it a couple, which has no lever?
     pub couple: bool,
@@ -39,12 +39,12 @@ pub(super) struct Held {
     pub normal: DVec3,
     turn: DVec3,
     /// How it acts on its bodies.
-    pub ends: [Option<Lever>; MAX_ROW_BODIES],
+    pub ends: [Option<ContactArm>; MAX_ROW_BODIES],
 }
 
 /// One end of a held force.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lever {
+pub(super) struct ContactArm {
     pub body: usize,
     /// Wrench of a bound per unit force, and its change in a substep of that length.
     block: Vec6,
@@ -54,16 +54,16 @@ pub(super) struct Lever {
     pub way: DVec3,
 }
 
-/// All forces that hold what rests. Nothing here allocates after [`HeldForces::new`].
+/// All forces that hold what rests. Nothing here allocates after [`ContactForces::new`].
 #[derive(Clone, Debug)]
-pub(super) struct HeldForces {
-    pub held: Vec<Held>,
+pub(super) struct ContactForces {
+    pub held: Vec<ContactForce>,
     /// Those that the present substep begins with, where a clutch holds that may yet give way.
-    began: Vec<Held>,
+    began: Vec<ContactForce>,
     /// Those before them.
-    former: Vec<Held>,
+    former: Vec<ContactForce>,
     /// Those among bodies that sleep.
-    pub kept: Vec<Held>,
+    pub kept: Vec<ContactForce>,
     /// Length of the substep that they are laid out for, s.
     pub span: f64,
     /// Greatest ω² with which a body under the forces that hold it would tip out of its place, 1/s², and those of the bodies.
@@ -71,10 +71,10 @@ pub(super) struct HeldForces {
     tipping: Vec<f64>,
 }
 
-impl HeldForces {
+impl ContactForces {
     /// Room for those of so many touches, and for as many as are solved for at once.
-    pub fn new(touches: usize, at_once: usize, bodies: usize) -> Self {
-        let room = touches.min(MOST_KEPT);
+    pub fn new(contacts: usize, at_once: usize, bodies: usize) -> Self {
+        let room = contacts.min(MOST_KEPT);
         Self {
             held: Vec::with_capacity(room),
             began: Vec::with_capacity(room),
@@ -93,7 +93,7 @@ impl HeldForces {
     }
 
     /// Lays them out for a substep of `h` seconds.
-    pub fn lay_out(&mut self, h: f64) {
+    pub fn prepare_contact_forces(&mut self, h: f64) {
         if (h - self.span).abs() > SAME_SPAN * h {
             self.span = h;
         }
@@ -111,8 +111,8 @@ impl HeldForces {
 
     /// Keeps apart those among bodies that sleep, and takes up again those of bodies that have woken.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
-        let sleeps = |held: &Held| held.ends.iter().flatten().any(|lever| asleep[lever.body]);
-        let moves = |from: &mut Vec<Held>, to: &mut Vec<Held>, which: bool| {
+        let sleeps = |held: &ContactForce| held.ends.iter().flatten().any(|lever| asleep[lever.body]);
+        let moves = |from: &mut Vec<ContactForce>, to: &mut Vec<ContactForce>, which: bool| {
             to.extend(from.iter().filter(|held| sleeps(held) == which));
             from.retain(|held| sleeps(held) != which);
         };
@@ -121,7 +121,7 @@ impl HeldForces {
     }
 
     /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
-    pub fn press(&self, external: &mut [Vec6]) {
+    pub fn apply_contact_forces(&self, external: &mut [Vec6]) {
         for (body, wrench) in self.wrenches() {
             add_scaled(&mut external[body], 1.0, &wrench);
         }
@@ -146,7 +146,13 @@ impl HeldForces {
     /// the substep, have missed. With x̄ a body's mean place over it, r the lever that the force F on it had, and
     /// p̄ = ½ (x̄_a + r_a + x̄_b + r_b), body i lacks h (p̄ − x̄_i − r_i) × F_i; then angular momentum is kept as both turn
     /// about p̄. For motion of constant acceleration x̄ = ½ (x₀ + x₁) − h (v₁ − v₀)/12 without error. Answers the work, J.
-    pub fn straighten(&self, h: f64, start: &[RigidBody], system: &mut System, bodies: &mut [RigidBody]) -> f64 {
+    pub fn correct_contact_torque(
+        &self,
+        h: f64,
+        start: &[RigidBody],
+        system: &mut System,
+        bodies: &mut [RigidBody],
+    ) -> f64 {
         system.b.fill([0.0; 6]);
         let (mut any, mut work) = (false, 0.0);
         for held in &self.held {
@@ -154,7 +160,7 @@ impl HeldForces {
                 continue;
             };
             let stretch = held.stretch(self.span);
-            let place = |lever: &Lever| {
+            let place = |lever: &ContactArm| {
                 let (from, to) = (&start[lever.body], &bodies[lever.body]);
                 let mean = 0.5 * (from.position + to.position) - (to.velocity - from.velocity) * (h / 12.0);
                 mean + lever.arm + stretch * lever.way
@@ -181,7 +187,13 @@ impl HeldForces {
     }
 
     /// Remembers the forces, to begin the next substep or this one anew, as far as they are good enough to begin from.
-    pub fn remember(&mut self, problem: &Problem, (h, stands): (f64, bool), start: &[RigidBody], bodies: &[RigidBody]) {
+    pub fn remember(
+        &mut self,
+        problem: &ContactProblem,
+        (h, stands): (f64, bool),
+        start: &[RigidBody],
+        bodies: &[RigidBody],
+    ) {
         self.former.clear();
         std::mem::swap(&mut self.former, &mut self.held);
         self.tips = 0.0;
@@ -189,35 +201,36 @@ impl HeldForces {
             return;
         }
         self.tipping.fill(0.0);
-        for (index, touch) in problem.touches.iter().enumerate() {
-            if touch.impulse == DVec3::ZERO || !problem.is_good(index) {
+        for (index, contact) in problem.contacts.iter().enumerate() {
+            if contact.impulse == DVec3::ZERO || !problem.is_good(index) {
                 continue;
             }
-            let former = self.former.iter().find(|held| held.belongs_to(touch) && touch.follows == Some(held.point));
-            let row = &problem.rows[touch.first];
+            let former =
+                self.former.iter().find(|held| held.belongs_to(contact) && contact.follows == Some(held.point));
+            let row = &problem.rows[contact.first];
             let gone = |body: usize| bodies[body].position - start[body].position;
             let ends = || row.ends.iter().flatten();
             // A new point goes with its bodies' centres.
             let mean = || ends().map(|(body, _)| gone(*body)).sum::<DVec3>() / ends().count() as f64;
-            let along = former.map_or_else(mean, |held| touch.point - held.point);
+            let along = former.map_or_else(mean, |held| contact.point - held.point);
             // The normal turns as surfaces curve: forces and levers are kept as they are at the start of what comes.
-            let turn = former.map_or(DVec3::ZERO, |held| held.normal.cross(touch.normal));
+            let turn = former.map_or(DVec3::ZERO, |held| held.normal.cross(contact.normal));
             let lever = |end: usize| {
                 let (body, block) = row.ends[end]?;
-                let (arm, way) = (touch.point - bodies[body].position, along - gone(body));
+                let (arm, way) = (contact.point - bodies[body].position, along - gone(body));
                 let before = former.and_then(|held| held.ends[end]).map_or(block, |lever| lever.block);
                 let block_change = std::array::from_fn(|k| block[k] - before[k]);
                 let (arm, block) = if stands { (arm, block) } else { (arm - way, before) };
-                Some(Lever { body, block, block_change, arm, way })
+                Some(ContactArm { body, block, block_change, arm, way })
             };
             let back = if stands { DQuat::IDENTITY } else { rotation(-turn) };
-            self.held.push(Held {
-                source: touch.source,
-                couple: touch.twist.is_some(),
-                point: if stands { touch.point } else { touch.point - along },
-                force: back * world(touch) / h,
+            self.held.push(ContactForce {
+                source: contact.source,
+                couple: contact.twist.is_some(),
+                point: if stands { contact.point } else { contact.point - along },
+                force: back * world(contact) / h,
                 span: h,
-                normal: back * touch.normal,
+                normal: back * contact.normal,
                 turn,
                 ends: std::array::from_fn(lever),
             });
@@ -242,12 +255,12 @@ impl HeldForces {
 
     /// Lets slip what carries too much at the end of a pass. Did anything? Then the substep is to be gone through
     /// again, and begins as it did, with what the clutch carried.
-    pub fn give_way(&mut self, clutches: &mut Clutches, bounds: usize, system: &mut System) -> bool {
+    pub fn slip_overloaded(&mut self, clutches: &mut Clutches, bounds: usize, system: &mut System) -> bool {
         let Self { held, began, span, .. } = self;
-        let slips = clutches.give_way(system, |index, row, load| {
+        let slips = clutches.slip_overloaded(system, |index, row, load| {
             let still =
-                |(body, block)| Lever { body, block, block_change: [0.0; 6], arm: DVec3::ZERO, way: DVec3::ZERO };
-            began.push(Held {
+                |(body, block)| ContactArm { body, block, block_change: [0.0; 6], arm: DVec3::ZERO, way: DVec3::ZERO };
+            began.push(ContactForce {
                 source: Source::Bound(bounds + index),
                 couple: false,
                 point: DVec3::ZERO,
@@ -265,10 +278,10 @@ impl HeldForces {
     }
 }
 
-impl Held {
+impl ContactForce {
     /// Can a touch be what it has held?
-    pub fn belongs_to(&self, touch: &Touch) -> bool {
-        self.source == touch.source && self.couple == touch.twist.is_some()
+    pub fn belongs_to(&self, contact: &Contact) -> bool {
+        self.source == contact.source && self.couple == contact.twist.is_some()
     }
 
     /// The bodies it acts on and its wrenches there in a substep of `h` seconds, N and N m about their centres.
@@ -298,7 +311,7 @@ impl Held {
     }
 }
 
-impl Lever {
+impl ContactArm {
     /// How fast its point can move, m/s.
     pub fn speed(&self, bodies: &[RigidBody]) -> f64 {
         let body = &bodies[self.body];
@@ -307,23 +320,23 @@ impl Lever {
 }
 
 /// A touch's impulse or couple in the world; a bound's along its row in x.
-fn world(touch: &Touch) -> DVec3 {
-    match touch.source {
+fn world(contact: &Contact) -> DVec3 {
+    match contact.source {
         Source::Pair(_) => {
-            let (t, b) = tangents(touch.normal);
-            touch.impulse.x * touch.normal + touch.impulse.y * t + touch.impulse.z * b
+            let (t, b) = tangents(contact.normal);
+            contact.impulse.x * contact.normal + contact.impulse.y * t + contact.impulse.z * b
         }
-        Source::Bound(_) => touch.impulse,
+        Source::Bound(_) => contact.impulse,
     }
 }
 
 /// A held force in a touch's own frame (n, t, b), turned with the normal.
-pub(super) fn in_frame(touch: &Touch, held: &Held) -> DVec3 {
-    match touch.source {
+pub(super) fn in_frame(contact: &Contact, held: &ContactForce) -> DVec3 {
+    match contact.source {
         Source::Pair(_) => {
-            let (t, b) = tangents(touch.normal);
-            let force = rotation(held.normal.cross(touch.normal)) * held.force;
-            DVec3::new(force.dot(touch.normal), force.dot(t), force.dot(b))
+            let (t, b) = tangents(contact.normal);
+            let force = rotation(held.normal.cross(contact.normal)) * held.force;
+            DVec3::new(force.dot(contact.normal), force.dot(t), force.dot(b))
         }
         Source::Bound(_) => DVec3::new(held.force.x, 0.0, 0.0),
     }

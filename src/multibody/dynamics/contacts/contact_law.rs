@@ -10,7 +10,7 @@
 //! clutch      P = −τ h (sign u + u/ω₁), or u = 0 at |P| ≤ τ h     see `dynamics/clutches.rs`
 //! ```
 //!
-//! [`Law::relax`] solves a law exactly with u + K ΔP for u. [`Law::doing`] says what a touch does now, and [`Doing::soft`] what
+//! [`ContactLaw::relax`] solves a law exactly with u + K ΔP for u. [`ContactLaw::doing`] says what a touch does now, and [`ActiveBranch::soft`] what
 //! impulse it has while it goes on so and gives way a little. What holds a velocity has P⁺ = P − ρ u, ρ large, and friction that
 //! slides goes with the normal impulse, and turns against what is across it:
 //!
@@ -20,12 +20,12 @@
 //!
 //! so that D = −∂P⁺/∂u is not symmetric. A couple at its bound goes with the normal impulse of its point likewise.
 
-use super::contact::{GREASE, LOCKED, RollingResistance, Touch};
+use super::contact::{Contact, GREASE, LOCKED, RollingResistance};
 use soffio_math::{DMat2, DMat3, DVec2, DVec3};
 
 /// What a touch obeys at present.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Law {
+pub(super) enum ContactLaw {
     /// Its impulse stays as it is.
     #[default]
     Still,
@@ -43,7 +43,7 @@ pub(super) enum Law {
 
 /// What a touch answers to its own impulse.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Answer {
+pub(super) struct EffectiveInverseMass {
     /// K, 1/kg, and the inverse of it (a little more where it has none).
     pub k: DMat3,
     pub inverse: DMat3,
@@ -54,16 +54,16 @@ pub(super) struct Answer {
     pub arm: f64,
 }
 
-impl Answer {
+impl EffectiveInverseMass {
     /// The largest of K's answers, about.
     pub fn most(&self) -> f64 {
         self.k.x_axis.x.max(self.across)
     }
 }
 
-impl Law {
+impl ContactLaw {
     /// The impulse that satisfies the law, the others' impulses as they are.
-    pub fn relax(self, answer: &Answer, p: DVec3, u: DVec3) -> DVec3 {
+    pub fn relax(self, answer: &EffectiveInverseMass, p: DVec3, u: DVec3) -> DVec3 {
         let k = answer.k.x_axis.x;
         match self {
             Self::Still => p,
@@ -98,22 +98,22 @@ impl Law {
     }
 
     /// What a touch may do, whatever it does now, so far as that is the gradient of a convex function.
-    pub fn may_do(self, answer: &Answer, p: DVec3, u: DVec3) -> Doing {
+    pub fn convex_branch(self, answer: &EffectiveInverseMass, p: DVec3, u: DVec3) -> ActiveBranch {
         match self {
-            Self::Contact(mu) => Doing::Cone(mu),
-            Self::Couple(..) => match self.doing(answer, p, u) {
-                Doing::Follows { holds: [false, false], turn, .. } => {
-                    Doing::Given(self.relax(answer, p, u), join(0.0, turn))
+            Self::Contact(mu) => ActiveBranch::Cone(mu),
+            Self::Couple(..) => match self.active_branch(answer, p, u) {
+                ActiveBranch::Follows { holds: [false, false], turn, .. } => {
+                    ActiveBranch::Given(self.relax(answer, p, u), join(0.0, turn))
                 }
-                Doing::Follows { holds, .. } => Doing::Holds(holds),
+                ActiveBranch::Follows { holds, .. } => ActiveBranch::Holds(holds),
                 other => other,
             },
-            _ => self.doing(answer, p, u),
+            _ => self.active_branch(answer, p, u),
         }
     }
 
     /// What a touch does now, which it is taken to go on doing.
-    pub fn doing(self, answer: &Answer, p: DVec3, u: DVec3) -> Doing {
+    pub fn active_branch(self, answer: &EffectiveInverseMass, p: DVec3, u: DVec3) -> ActiveBranch {
         let to = self.relax(answer, p, u);
         let slip = DVec2::new(u.y, u.z);
         let rubs = |most: f64| {
@@ -127,39 +127,39 @@ impl Law {
             Some((e, (DMat2::IDENTITY - outer(e)) * (most / speed.max(SLIDES * answer.across * most))))
         };
         match self {
-            Self::Still => Doing::Given(p, DMat3::ZERO),
-            Self::Bound => Doing::Slides { along: DVec3::X, turn: DMat2::ZERO },
+            Self::Still => ActiveBranch::Given(p, DMat3::ZERO),
+            Self::Bound => ActiveBranch::Slides { along: DVec3::X, turn: DMat2::ZERO },
             Self::Contact(mu) => match rubs(mu * to.x) {
-                _ if to.x <= 0.0 => Doing::Slides { along: DVec3::X, turn: DMat2::ZERO },
-                Some((e, turn)) => Doing::Slides { along: DVec3::new(1.0, mu * e.x, mu * e.y), turn },
-                None => Doing::Sticks,
+                _ if to.x <= 0.0 => ActiveBranch::Slides { along: DVec3::X, turn: DMat2::ZERO },
+                Some((e, turn)) => ActiveBranch::Slides { along: DVec3::new(1.0, mu * e.x, mu * e.y), turn },
+                None => ActiveBranch::Sticks,
             },
             Self::Friction(most) => match rubs(most) {
-                Some((e, turn)) => Doing::Given(DVec3::new(p.x, most * e.x, most * e.y), join(0.0, turn)),
-                None => Doing::Holds([false, true]),
+                Some((e, turn)) => ActiveBranch::Given(DVec3::new(p.x, most * e.x, most * e.y), join(0.0, turn)),
+                None => ActiveBranch::Holds([false, true]),
             },
             Self::Couple(arms, press) => {
                 let spins = to.x.abs() >= press * arms.x * (1.0 - SLIDES);
                 let (roll, turn) = rubs(press * arms.y).unwrap_or((DVec2::ZERO, DMat2::ZERO));
                 let rolls = roll != DVec2::ZERO;
                 let spin = if spins { arms.x.copysign(to.x) } else { 0.0 };
-                Doing::Follows {
+                ActiveBranch::Follows {
                     along: DVec3::new(spin, arms.y * roll.x, arms.y * roll.y),
                     turn,
                     holds: [!spins, !rolls],
                 }
             }
-            Self::Clutch(most) if to.x.abs() <= most => Doing::Holds([true, false]),
+            Self::Clutch(most) if to.x.abs() <= most => ActiveBranch::Holds([true, false]),
             Self::Clutch(most) => {
                 // P = −τ h (sign w + u/ω₁) at the present velocity, whatever a light body of its own would slow it to.
                 let (sign, grease) = ((p.x - u.x / answer.k.x_axis.x).signum(), most / GREASE);
-                Doing::Given(DVec3::X * (most * sign - grease * u.x), DMat3::from_diagonal(DVec3::X * grease))
+                ActiveBranch::Given(DVec3::X * (most * sign - grease * u.x), DMat3::from_diagonal(DVec3::X * grease))
             }
         }
     }
 
     /// The nearest impulse that the law allows at any velocity.
-    pub fn allowed(self, p: DVec3) -> DVec3 {
+    pub fn project(self, p: DVec3) -> DVec3 {
         match self {
             Self::Still | Self::Clutch(_) => p,
             Self::Bound => DVec3::X * p.x.max(0.0),
@@ -172,7 +172,7 @@ impl Law {
 
 /// What a touch is taken to go on doing while all are solved at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Doing {
+pub(super) enum ActiveBranch {
     /// It has this impulse less D Δu.
     Given(DVec3, DMat3),
     /// It holds its first row, the others, or both.
@@ -187,16 +187,16 @@ pub(super) enum Doing {
     Follows { along: DVec3, turn: DMat2, holds: [bool; 2] },
 }
 
-impl Default for Doing {
+impl Default for ActiveBranch {
     fn default() -> Self {
         Self::Given(DVec3::ZERO, DMat3::ZERO)
     }
 }
 
-impl Doing {
+impl ActiveBranch {
     /// P⁺ and D = −∂P⁺/∂u of a touch with the impulse P that gives way by (P − P⁺)/ρ; `slid` is how its velocity has changed since,
     /// and `press` is P⁺_n of a couple's point.
-    pub fn soft(&self, rho: f64, p: DVec3, (u, slid): (DVec3, DVec3), press: f64) -> (DVec3, DMat3) {
+    pub fn regularized(&self, rho: f64, p: DVec3, (u, slid): (DVec3, DVec3), press: f64) -> (DVec3, DMat3) {
         let a = p - rho * u;
         let held = |[first, others]: [bool; 2]| DVec3::new(f64::from(first), f64::from(others), f64::from(others));
         match *self {
@@ -228,28 +228,28 @@ impl Doing {
 /// Friction within this share of its bound slides.
 const SLIDES: f64 = 1e-9;
 
-impl Touch {
+impl Contact {
     /// The law of a touch; `normal` is the normal impulse of a couple's point.
-    pub(super) fn law(&self, normal: f64) -> Law {
+    pub(super) fn law(&self, normal: f64) -> ContactLaw {
         if self.answer.most() <= LOCKED {
-            return Law::Still;
+            return ContactLaw::Still;
         }
         if let Some(twist) = &self.twist {
             let RollingResistance { rolling, spinning } = twist.resistance;
-            return Law::Couple(DVec2::new(spinning, rolling), normal.max(0.0));
+            return ContactLaw::Couple(DVec2::new(spinning, rolling), normal.max(0.0));
         }
         match &self.grip {
-            Some(grip) => Law::Clutch(if grip.slips { grip.most } else { f64::INFINITY }),
-            None if self.answer.k.x_axis.x <= LOCKED => Law::Still,
-            None if self.rows == 1 || self.friction == 0.0 => Law::Bound,
-            None => Law::Contact(self.friction),
+            Some(grip) => ContactLaw::Clutch(if grip.slips { grip.most } else { f64::INFINITY }),
+            None if self.answer.k.x_axis.x <= LOCKED => ContactLaw::Still,
+            None if self.rows == 1 || self.friction == 0.0 => ContactLaw::Bound,
+            None => ContactLaw::Contact(self.friction),
         }
     }
 }
 
 /// Signorini's and Coulomb's laws of one touch.
-fn contact(answer: &Answer, mu: f64, p: DVec3, u: DVec3) -> DVec3 {
-    let Answer { k, inverse, across, .. } = answer;
+fn contact(answer: &EffectiveInverseMass, mu: f64, p: DVec3, u: DVec3) -> DVec3 {
+    let EffectiveInverseMass { k, inverse, across, .. } = answer;
     let stuck = p - *inverse * u;
     if stuck.x >= 0.0 && DVec2::new(stuck.y, stuck.z).length_squared() <= (mu * stuck.x) * (mu * stuck.x) {
         return stuck;
@@ -323,12 +323,12 @@ mod tests {
     use soffio_math::noise::Random;
 
     /// K of a free body that is touched at a random place.
-    fn answer(random: &mut Random) -> Answer {
+    fn answer(random: &mut Random) -> EffectiveInverseMass {
         let l = DVec3::new(random.signed(), random.signed(), random.signed());
         let k = DMat3::IDENTITY - soffio_math::skew(l) * soffio_math::skew(l);
         let (a, d, b) = (k.y_axis.y, k.z_axis.z, k.y_axis.z);
         let across = 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt();
-        Answer { k, inverse: k.inverse(), across, arm: 1.0 }
+        EffectiveInverseMass { k, inverse: k.inverse(), across, arm: 1.0 }
     }
 
     #[test]
@@ -339,7 +339,7 @@ mod tests {
             let mut random = Random::new(seed);
             let (answer, mu) = (answer(&mut random), random.unit());
             let (p, u) = (DVec3::ZERO, DVec3::new(random.signed(), random.signed(), random.signed()));
-            let to = Law::Contact(mu).relax(&answer, p, u);
+            let to = ContactLaw::Contact(mu).relax(&answer, p, u);
             let after = u + answer.k * (to - p);
             let rub = DVec2::new(to.y, to.z).length();
             assert!(to.x >= 0.0 && rub <= mu * to.x * (1.0 + 1e-9), "seed {seed}: {to}");
@@ -372,9 +372,9 @@ mod tests {
 
     #[test]
     fn a_clutch_carries_more_the_faster_it_slips() {
-        let one = Answer { k: DMat3::IDENTITY, inverse: DMat3::IDENTITY, across: 1.0, arm: 1.0 };
+        let one = EffectiveInverseMass { k: DMat3::IDENTITY, inverse: DMat3::IDENTITY, across: 1.0, arm: 1.0 };
         let (most, u) = (0.1, DVec3::X * 2.0);
-        let to = Law::Clutch(most).relax(&one, DVec3::ZERO, u);
+        let to = ContactLaw::Clutch(most).relax(&one, DVec3::ZERO, u);
         let rate = (u + to).x;
         assert!((to.x + most * (1.0 + rate / GREASE)).abs() < 1e-12, "{to} at {rate}");
     }

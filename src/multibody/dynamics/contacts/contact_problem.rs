@@ -14,14 +14,14 @@
 //! velocities that come out are unique where friction is, and the split among redundant feet is the one nearest to where the
 //! solver began.
 
-use super::contact::{LOCKED, PROXIMAL, Source, Touch};
-use super::contact_law::{Answer, Law};
-use super::contact_solver::{Iterate, Newton, View};
+use super::contact::{Contact, LOCKED, PROXIMAL, Source};
+use super::contact_law::{ContactLaw, EffectiveInverseMass};
+use super::contact_solver::{ContactSolver, Iterate, ProblemView};
 use super::islands::{Island, Islands};
-use super::jacobian_row::Row;
+use super::jacobian_row::JacobianRow;
 use super::reduced_coordinates::{Coordinates, Mechanisms};
 use crate::articulation::System;
-use crate::dynamics::work_budget::TOUCH;
+use crate::dynamics::work_budget::CONTACT_OPERATIONS;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{angular, linear, vec6};
 use soffio_math::{DMat3, DVec3};
@@ -34,90 +34,90 @@ const PUSH_TIME: f64 = 1e-3;
 
 /// All touches of one moment.
 #[derive(Clone, Debug)]
-pub(super) struct Problem {
-    pub touches: Vec<Touch>,
-    pub rows: Vec<Row>,
+pub(super) struct ContactProblem {
+    pub contacts: Vec<Contact>,
+    pub rows: Vec<JacobianRow>,
     coordinates: Coordinates,
     islands: Islands,
-    newton: Newton,
+    newton: ContactSolver,
     /// Impulse of each row.
     impulses: Vec<f64>,
-    /// Operations so far (`dynamics/effort.rs`).
-    pub effort: u64,
+    /// Operations so far (`dynamics/operations.rs`).
+    pub operations: u64,
 }
 
-impl Problem {
+impl ContactProblem {
     /// Room for about this many touches at a time, of a figure of these mechanisms whose joints have this many rows and are
     /// drawn together with this time constant (s).
-    pub fn new(touches: usize, mechanisms: Mechanisms, joints: (usize, f64)) -> Self {
-        let (touches, bodies) = (touches.min(ROOM), mechanisms.count());
+    pub fn new(contacts: usize, mechanisms: Mechanisms, joints: (usize, f64)) -> Self {
+        let (contacts, bodies) = (contacts.min(ROOM), mechanisms.count());
         Self {
-            touches: Vec::with_capacity(touches),
-            rows: Vec::with_capacity(3 * touches),
-            newton: Newton::with_room(touches, bodies),
-            coordinates: Coordinates::new(mechanisms, touches, joints),
-            islands: Islands::with_room(bodies, touches),
-            impulses: Vec::with_capacity(3 * touches),
-            effort: 0,
+            contacts: Vec::with_capacity(contacts),
+            rows: Vec::with_capacity(3 * contacts),
+            newton: ContactSolver::with_room(contacts, bodies),
+            coordinates: Coordinates::new(mechanisms, contacts, joints),
+            islands: Islands::with_room(bodies, contacts),
+            impulses: Vec::with_capacity(3 * contacts),
+            operations: 0,
         }
     }
 
     /// Empties it.
     pub fn clear(&mut self) {
-        self.touches.clear();
+        self.contacts.clear();
         self.rows.clear();
     }
 
     /// Adds a touch with its rows.
-    pub fn push(&mut self, mut touch: Touch, rows: &[Row]) {
-        (touch.first, touch.rows) = (self.rows.len(), rows.len());
+    pub fn push(&mut self, mut contact: Contact, rows: &[JacobianRow]) {
+        (contact.first, contact.rows) = (self.rows.len(), rows.len());
         self.rows.extend_from_slice(rows);
-        self.touches.push(touch);
+        self.contacts.push(contact);
     }
 
     /// Finds what moves how, at the bodies' present state; the joints must be factored there. All impulses are what acted before.
     pub fn assemble(&mut self, system: &mut System, bodies: &[RigidBody]) {
-        let Self { touches, rows, coordinates, islands, newton, .. } = self;
-        coordinates.assemble(touches, rows, system, bodies);
-        islands.find(coordinates, touches);
-        self.effort += TOUCH * touches.len() as u64;
+        let Self { contacts, rows, coordinates, islands, newton, .. } = self;
+        coordinates.assemble(contacts, rows, system, bodies);
+        islands.find(coordinates, contacts);
+        self.operations += CONTACT_OPERATIONS * contacts.len() as u64;
         newton.begin(coordinates.nodes.iter().map(|node| node.size).sum());
         newton.iterates.clear();
-        for index in 0..touches.len() {
-            touches[index].weigh(coordinates);
-            if let Some(twist) = touches[index].twist {
-                let push = touches[twist.of].k().x_axis.x;
-                touches[index].answer.arm = (push / touches[index].answer.most().max(LOCKED)).sqrt();
+        for index in 0..contacts.len() {
+            contacts[index].find_inverse_mass(coordinates);
+            if let Some(twist) = contacts[index].twist {
+                let push = contacts[twist.of].k().x_axis.x;
+                contacts[index].answer.arm = (push / contacts[index].answer.most().max(LOCKED)).sqrt();
             }
-            let touch = &touches[index];
-            let rate = |k: usize| if k < touch.rows { rows[touch.first + k].rate(bodies) } else { 0.0 };
+            let contact = &contacts[index];
+            let rate = |k: usize| if k < contact.rows { rows[contact.first + k].rate(bodies) } else { 0.0 };
             let start = DVec3::new(rate(0), rate(1), rate(2));
-            newton.iterates.push(Iterate::new(touch, start));
+            newton.iterates.push(Iterate::new(contact, start));
         }
     }
 
     /// Lets every touch begin from its own `begin`.
     pub fn begin(&mut self) {
-        self.touches.iter_mut().for_each(|touch| touch.impulse = touch.begin);
+        self.contacts.iter_mut().for_each(|contact| contact.impulse = contact.begin);
     }
 
     /// Velocity of a touch (n, t, b) under the impulses last solved for or followed, m/s.
-    pub fn velocity(&self, touch: usize) -> DVec3 {
-        self.newton.iterates[touch].u
+    pub fn velocity(&self, contact: usize) -> DVec3 {
+        self.newton.iterates[contact].u
     }
 
     /// How fast a touch of what met at the share `s` of a substep that began so approached there, m/s; forces change that evenly.
-    pub fn approach(&self, touch: usize, s: f64, start: &[RigidBody]) -> f64 {
-        let (first, last) = (self.rows[self.touches[touch].first].rate(start), self.velocity(touch).x);
+    pub fn approach(&self, contact: usize, s: f64, start: &[RigidBody]) -> f64 {
+        let (first, last) = (self.rows[self.contacts[contact].first].rate(start), self.velocity(contact).x);
         -(first + s * (last - first))
     }
 
     /// Lets all velocities follow from the impulses as they are.
     pub fn follow(&mut self) {
-        for (touch, iterate) in self.touches.iter().zip(&mut self.newton.iterates) {
-            iterate.p = touch.impulse;
+        for (contact, iterate) in self.contacts.iter().zip(&mut self.newton.iterates) {
+            iterate.p = contact.impulse;
         }
-        let view = View { touches: &self.touches, coordinates: &self.coordinates, islands: &self.islands };
+        let view = ProblemView { contacts: &self.contacts, coordinates: &self.coordinates, islands: &self.islands };
         for island in &self.islands.islands {
             self.newton.follow(view, island);
         }
@@ -127,11 +127,13 @@ impl Problem {
     /// too much. Where teeth jam, both may be possible; then they hold.
     pub fn solve(&mut self) {
         loop {
-            self.solve_by(|touch, touches| touch.law(touch.twist.map_or(0.0, |twist| touches[twist.of].impulse.x)));
+            self.solve_by(|contact, contacts| {
+                contact.law(contact.twist.map_or(0.0, |twist| contacts[twist.of].impulse.x))
+            });
             let mut gives = false;
-            for touch in &mut self.touches {
-                let Some(grip) = &mut touch.grip else { continue };
-                if !grip.slips && touch.impulse.x.abs() > grip.most {
+            for contact in &mut self.contacts {
+                let Some(grip) = &mut contact.grip else { continue };
+                if !grip.slips && contact.impulse.x.abs() > grip.most {
                     (grip.slips, gives) = (true, true);
                 }
             }
@@ -143,47 +145,51 @@ impl Problem {
 
     /// Solves for friction alone, the normal impulses given.
     pub fn solve_friction(&mut self) {
-        self.solve_by(|touch, _| {
-            let free = touch.rows == 3 && touch.answer.across > LOCKED;
-            if free { Law::Friction(touch.friction * touch.impulse.x) } else { Law::Still }
+        self.solve_by(|contact, _| {
+            let free = contact.rows == 3 && contact.answer.across > LOCKED;
+            if free { ContactLaw::Friction(contact.friction * contact.impulse.x) } else { ContactLaw::Still }
         })
     }
 
-    fn solve_by(&mut self, law: impl Fn(&Touch, &[Touch]) -> Law) {
-        let Self { touches, coordinates, islands, newton, .. } = self;
-        for (touch, iterate) in touches.iter().zip(&mut newton.iterates) {
-            iterate.begin(touch, law(touch, touches));
+    fn solve_by(&mut self, law: impl Fn(&Contact, &[Contact]) -> ContactLaw) {
+        let Self { contacts, coordinates, islands, newton, .. } = self;
+        for (contact, iterate) in contacts.iter().zip(&mut newton.iterates) {
+            iterate.begin(contact, law(contact, contacts));
         }
-        newton.solve(View { touches, coordinates, islands });
-        self.effort += std::mem::take(&mut newton.effort);
-        for (touch, iterate) in touches.iter_mut().zip(&newton.iterates) {
-            touch.impulse = iterate.p;
+        newton.solve(ProblemView { contacts, coordinates, islands });
+        self.operations += std::mem::take(&mut newton.operations);
+        for (contact, iterate) in contacts.iter_mut().zip(&newton.iterates) {
+            contact.impulse = iterate.p;
         }
     }
 
     /// Change of kinetic energy by the impulses so far, of which P₀ acted earlier, J: (P − P₀)·(u₀ + u)/2.
     pub fn work(&self) -> f64 {
-        let work = |touch: &Iterate| (touch.p - touch.before).dot(0.5 * (touch.start + touch.u));
+        let work = |contact: &Iterate| (contact.p - contact.before).dot(0.5 * (contact.start + contact.u));
         self.newton.iterates.iter().map(work).sum()
     }
 
     /// Is the impulse of a touch good enough to begin from next time?
-    pub fn is_good(&self, touch: usize) -> bool {
-        self.newton.iterates[touch].good
+    pub fn is_good(&self, contact: usize) -> bool {
+        self.newton.iterates[contact].good
     }
 
     fn points(&self) -> impl Iterator<Item = &Iterate> {
-        self.touches.iter().zip(&self.newton.iterates).filter(|(touch, _)| touch.twist.is_none()).map(|(_, own)| own)
+        self.contacts
+            .iter()
+            .zip(&self.newton.iterates)
+            .filter(|(contact, _)| contact.twist.is_none())
+            .map(|(_, own)| own)
     }
 
     /// Largest velocity that the impulses give any touch beyond what acted before, m/s.
     pub fn largest_change(&self) -> f64 {
-        self.points().fold(0.0, |most: f64, touch| most.max((touch.u - touch.start).abs().max_element()))
+        self.points().fold(0.0, |most: f64, contact| most.max((contact.u - contact.start).abs().max_element()))
     }
 
     /// Slip of the fastest touch, m/s.
     pub fn largest_slip(&self) -> f64 {
-        self.points().fold(0.0, |most: f64, touch| most.max(touch.u.with_x(0.0).length()))
+        self.points().fold(0.0, |most: f64, contact| most.max(contact.u.with_x(0.0).length()))
     }
 
     /// Applies P − P₀ to the bodies' velocities.
@@ -211,9 +217,9 @@ impl Problem {
     /// P − P₀ of each row.
     fn take_changes(&mut self) {
         self.impulses.clear();
-        for touch in &self.touches {
-            let change = touch.impulse - touch.before;
-            self.impulses.extend((0..touch.rows).map(|k| change[k]));
+        for contact in &self.contacts {
+            let change = contact.impulse - contact.before;
+            self.impulses.extend((0..contact.rows).map(|k| change[k]));
         }
     }
 
@@ -233,12 +239,12 @@ impl Problem {
     }
 
     /// Takes all impulses for nothing that goes on in the islands of these touches: impacts are not forces.
-    pub fn hide_struck(&mut self, touches: impl Iterator<Item = usize>) {
-        for struck in touches {
-            let with = |island: &&Island| self.islands.touches[island.touches.clone()].binary_search(&struck).is_ok();
+    pub fn discard_impact_impulses(&mut self, contacts: impl Iterator<Item = usize>) {
+        for struck in contacts {
+            let with = |island: &&Island| self.islands.contacts[island.contacts.clone()].binary_search(&struck).is_ok();
             if let Some(island) = self.islands.islands.iter().find(with) {
-                for &touch in &self.islands.touches[island.touches.clone()] {
-                    self.touches[touch].impulse = DVec3::ZERO;
+                for &contact in &self.islands.contacts[island.contacts.clone()] {
+                    self.contacts[contact].impulse = DVec3::ZERO;
                 }
             }
         }
@@ -247,15 +253,15 @@ impl Problem {
     /// Least displacement, in kinetic energy, that brings every gap below `depth` up to it: pushes only, no friction.
     /// Momentum and angular momentum are kept. It is the same problem with the velocities of [`PUSH_TIME`] for ways.
     pub fn push_out(&mut self, depth: f64, most: f64, system: &mut System, bodies: &mut [RigidBody]) {
-        let Self { touches, coordinates, islands, newton, impulses, .. } = self;
-        for (touch, iterate) in touches.iter().zip(&mut newton.iterates) {
-            let law = if touch.answer.k.x_axis.x > LOCKED { Law::Bound } else { Law::Still };
-            *iterate = Iterate::pushed(touch, (depth - touch.gap).min(most) / PUSH_TIME, law);
+        let Self { contacts, coordinates, islands, newton, impulses, .. } = self;
+        for (contact, iterate) in contacts.iter().zip(&mut newton.iterates) {
+            let law = if contact.answer.k.x_axis.x > LOCKED { ContactLaw::Bound } else { ContactLaw::Still };
+            *iterate = Iterate::pushed(contact, (depth - contact.gap).min(most) / PUSH_TIME, law);
         }
-        newton.solve(View { touches, coordinates, islands });
+        newton.solve(ProblemView { contacts, coordinates, islands });
         impulses.clear();
-        for (touch, iterate) in touches.iter().zip(&newton.iterates) {
-            impulses.extend((0..touch.rows).map(|k| if k == 0 { PUSH_TIME * iterate.p.x } else { 0.0 }));
+        for (contact, iterate) in contacts.iter().zip(&newton.iterates) {
+            impulses.extend((0..contact.rows).map(|k| if k == 0 { PUSH_TIME * iterate.p.x } else { 0.0 }));
         }
         self.push_all(system);
         self.coordinates.answer(&self.impulses, system);
@@ -267,10 +273,10 @@ impl Problem {
         }
         // Bodies that pass each other at v are moved by a push p: p × v of angular momentum goes back to them in halves.
         system.b.fill([0.0; 6]);
-        for touch in self.touches.iter().filter(|touch| matches!(touch.source, Source::Pair(_))) {
-            if let [Some((a, along)), Some((b, _)), _] = self.rows[touch.first].ends {
+        for contact in self.contacts.iter().filter(|contact| matches!(contact.source, Source::Pair(_))) {
+            if let [Some((a, along)), Some((b, _)), _] = self.rows[contact.first].ends {
                 let passes = bodies[a].velocity - bodies[b].velocity;
-                let back = vec6(DVec3::ZERO, (-0.5 * self.impulses[touch.first] * linear(&along)).cross(passes));
+                let back = vec6(DVec3::ZERO, (-0.5 * self.impulses[contact.first] * linear(&along)).cross(passes));
                 system.push_impulse(a, &back, 1.0);
                 system.push_impulse(b, &back, 1.0);
             }
@@ -280,9 +286,9 @@ impl Problem {
     }
 }
 
-impl Touch {
+impl Contact {
     /// Takes the touch's own block of W, and what of it lies across the normal at most.
-    fn weigh(&mut self, coordinates: &Coordinates) {
+    fn find_inverse_mass(&mut self, coordinates: &Coordinates) {
         let mut k = [[0.0; 3]; 3];
         for part in coordinates.parts_of(self) {
             let size = coordinates.nodes[part.node].size;
@@ -298,6 +304,6 @@ impl Touch {
         let (k, trace) = (DMat3::from_cols_array_2d(&k), k[0][0] + a + d);
         let inverse = (k + DMat3::from_diagonal(DVec3::splat(PROXIMAL * trace.max(LOCKED)))).inverse();
         let across = 0.5 * (a + d) + (0.25 * (a - d) * (a - d) + b * b).sqrt();
-        self.answer = Answer { k, inverse, across, arm: 1.0 };
+        self.answer = EffectiveInverseMass { k, inverse, across, arm: 1.0 };
     }
 }

@@ -1,7 +1,7 @@
 //! What presses on what at the end of a step, how hard, and how fast it slides: what scraping and rolling sound from.
 
 use super::contact::Source;
-use super::contact_forces::Held;
+use super::contact_forces::ContactForce;
 use super::state::Contacts;
 use crate::collision::Pair;
 use soffio_geometry::bodies::RigidBody;
@@ -36,7 +36,7 @@ impl Contacts {
         })
     }
 
-    fn pressed_pair(&self, pair: usize, held: &Held, bodies: &[RigidBody]) -> ContactReport {
+    fn pressed_pair(&self, pair: usize, held: &ContactForce, bodies: &[RigidBody]) -> ContactReport {
         let Pair { a, b } = self.surfaces.pairs[pair].pair;
         let [first, second] = [a, b].map(|collider| self.surfaces.colliders[collider].body);
         let velocity = |body: Option<usize>| {

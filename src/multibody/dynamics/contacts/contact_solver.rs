@@ -12,13 +12,13 @@
 //! sweeps are made and the other kind of leap is tried. Whatever is taken has brought the touches nearer to their laws. A touch's normal impulse bounds
 //! its couple: that bound is taken from the last sweep.
 
-use super::active_set_step::Leap;
-use super::contact::{ROUNDING, Touch};
-use super::contact_law::{Answer, Doing, Law};
+use super::active_set_step::ActiveSetKind;
+use super::contact::{Contact, ROUNDING};
+use super::contact_law::{ActiveBranch, ContactLaw, EffectiveInverseMass};
 use super::envelope::Envelope;
 use super::islands::{Island, Islands};
 use super::reduced_coordinates::Coordinates;
-use crate::dynamics::work_budget::SWEPT;
+use crate::dynamics::work_budget::SWEEP_CONTACT_OPERATIONS;
 use soffio_math::{DMat3, DVec3};
 
 /// Touches agree with their laws when none would change a velocity of its own by more than this, m/s (a resting body creeps by
@@ -50,8 +50,8 @@ const KINDS: usize = 2;
 /// Sweeps at first and after a leap that helps little, and leaps at most, where steps are cheap and where they are dear; then the
 /// best impulses so far are taken.
 const SWEEPS: usize = 5;
-const MOST_LEAPS: usize = 12;
-const FEW_LEAPS: usize = 6;
+const MAX_ACTIVE_SET_STEPS: usize = 12;
+const MAX_ACTIVE_SET_STEPS_LARGE: usize = 6;
 /// A touch on the way to its impulse.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Iterate {
@@ -67,10 +67,10 @@ pub(super) struct Iterate {
     pub before: DVec3,
     /// Least velocity along the normal, m/s.
     pub least: f64,
-    pub(super) law: Law,
-    pub(super) answer: Answer,
+    pub(super) law: ContactLaw,
+    pub(super) answer: EffectiveInverseMass,
     /// What it is taken to go on doing in a leap, from this velocity, with this ρ.
-    pub(super) doing: Doing,
+    pub(super) branch: ActiveBranch,
     pub(super) from: DVec3,
     pub(super) rho: f64,
     /// D, and that of the factor at hand.
@@ -82,19 +82,19 @@ pub(super) struct Iterate {
 
 impl Iterate {
     /// A touch that has its first velocity and impulse.
-    pub fn new(touch: &Touch, start: DVec3) -> Self {
-        let (p, before, least) = (touch.before, touch.before, touch.least);
-        Self { start, u: start, p, before, least, answer: touch.answer, ..Self::default() }
+    pub fn new(contact: &Contact, start: DVec3) -> Self {
+        let (p, before, least) = (contact.before, contact.before, contact.least);
+        Self { start, u: start, p, before, least, answer: contact.answer, ..Self::default() }
     }
 
     /// A touch that is to open by `goal` or more, from nothing.
-    pub fn pushed(touch: &Touch, goal: f64, law: Law) -> Self {
-        Self { least: goal, answer: touch.answer, law, ..Self::default() }
+    pub fn pushed(contact: &Contact, goal: f64, law: ContactLaw) -> Self {
+        Self { least: goal, answer: contact.answer, law, ..Self::default() }
     }
 
     /// Begins from a touch's impulse, under this law.
-    pub fn begin(&mut self, touch: &Touch, law: Law) {
-        (self.p, self.least, self.law) = (touch.impulse, touch.least, law);
+    pub fn begin(&mut self, contact: &Contact, law: ContactLaw) {
+        (self.p, self.least, self.law) = (contact.impulse, contact.least, law);
     }
 
     /// u less the least velocity.
@@ -111,36 +111,36 @@ impl Iterate {
 
 /// The touches of a problem as the solver sees them.
 #[derive(Clone, Copy)]
-pub(super) struct View<'a> {
-    pub touches: &'a [Touch],
+pub(super) struct ProblemView<'a> {
+    pub contacts: &'a [Contact],
     pub coordinates: &'a Coordinates,
     pub islands: &'a Islands,
 }
 
 /// The solver. Impulses go in and come out in its iterates.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Newton {
+pub(super) struct ContactSolver {
     pub iterates: Vec<Iterate>,
     /// z, g and Newton's step, coordinate by coordinate.
     pub(super) z: Vec<f64>,
     pub(super) gradient: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) h: Envelope,
-    /// Operations so far (`dynamics/effort.rs`).
-    pub effort: u64,
+    /// Operations so far (`dynamics/operations.rs`).
+    pub operations: u64,
 }
 
-impl Newton {
+impl ContactSolver {
     /// Room for about so many touches of so many bodies.
-    pub fn with_room(touches: usize, bodies: usize) -> Self {
-        let coordinates = 6 * bodies.min(2 * touches);
+    pub fn with_room(contacts: usize, bodies: usize) -> Self {
+        let coordinates = 6 * bodies.min(2 * contacts);
         Self {
-            iterates: Vec::with_capacity(touches),
+            iterates: Vec::with_capacity(contacts),
             z: Vec::with_capacity(coordinates),
             gradient: Vec::with_capacity(coordinates),
             step: Vec::with_capacity(coordinates),
             h: Envelope::with_room(coordinates, 6 * coordinates.min(16)),
-            effort: 0,
+            operations: 0,
         }
     }
 
@@ -153,16 +153,18 @@ impl Newton {
     }
 
     /// Solves for all impulses from where they stand.
-    pub fn solve(&mut self, view: View) {
+    pub fn solve(&mut self, view: ProblemView) {
         for island in &view.islands.islands {
             let good = self.solve_island(view, island);
-            view.islands.touches[island.touches.clone()].iter().for_each(|&touch| self.iterates[touch].good = good);
+            view.islands.contacts[island.contacts.clone()]
+                .iter()
+                .for_each(|&contact| self.iterates[contact].good = good);
         }
     }
 
     /// Answers whether the impulses are good enough to begin from next time.
-    fn solve_island(&mut self, view: View, island: &Island) -> bool {
-        let own = &view.islands.touches[island.touches.clone()];
+    fn solve_island(&mut self, view: ProblemView, island: &Island) -> bool {
+        let own = &view.islands.contacts[island.contacts.clone()];
         self.follow(view, island);
         let mut best = self.missed(view, own);
         if best <= SETTLED {
@@ -170,12 +172,13 @@ impl Newton {
         }
         self.keep(own);
         let scale = |this: &Self| {
-            let alone = |touch: &usize| this.iterates[*touch].answer.k.x_axis.x * this.iterates[*touch].p.x;
+            let alone = |contact: &usize| this.iterates[*contact].answer.k.x_axis.x * this.iterates[*contact].p.x;
             own.iter().map(alone).fold(0.0, f64::max)
         };
-        let cheap = self.step_effort(view, island) <= CHEAP;
-        let (mut left, leaps) = if cheap { (MOST_STEPS, MOST_LEAPS) } else { (FEW_STEPS, FEW_LEAPS) };
-        let (mut softness, mut kind, mut idle, mut mark) = (SOFTEST, Leap::AsNow, 0, best);
+        let cheap = self.newton_step_operations(view, island) <= CHEAP;
+        let (mut left, leaps) =
+            if cheap { (MOST_STEPS, MAX_ACTIVE_SET_STEPS) } else { (FEW_STEPS, MAX_ACTIVE_SET_STEPS_LARGE) };
+        let (mut softness, mut kind, mut idle, mut mark) = (SOFTEST, ActiveSetKind::AsNow, 0, best);
         for leap in 0..leaps {
             // Sweeps come first: they go on from where the touches were, where several impulses obey the laws.
             if leap == 0 || idle > 0 {
@@ -186,7 +189,7 @@ impl Newton {
             let begun = best;
             let mut better = false;
             if best > SETTLED && left > 0 && (cheap || best <= NEAR) {
-                better = self.leap(view, island, (kind, softness), &mut left);
+                better = self.active_set_step(view, island, (kind, softness), &mut left);
                 let missed = self.missed(view, own);
                 best = self.keep_better(own, missed, best);
             }
@@ -195,7 +198,7 @@ impl Newton {
             } else {
                 // Hard touches make much of rounding.
                 (idle, softness) = (idle + 1, SOFTEST);
-                kind = if kind == Leap::Convex { Leap::AsNow } else { Leap::Convex };
+                kind = if kind == ActiveSetKind::Convex { ActiveSetKind::AsNow } else { ActiveSetKind::Convex };
             }
             let ends = if cheap {
                 // Both kinds and the sweeps between them have brought little: rounding, or touches that have no answer.
@@ -207,7 +210,7 @@ impl Newton {
                 break;
             }
         }
-        own.iter().for_each(|&touch| self.iterates[touch].p = self.iterates[touch].best);
+        own.iter().for_each(|&contact| self.iterates[contact].p = self.iterates[contact].best);
         self.follow(view, island);
         best <= GOOD + GOOD_SHARE * scale(self)
     }
@@ -221,56 +224,56 @@ impl Newton {
     }
 
     fn keep(&mut self, own: &[usize]) {
-        own.iter().for_each(|&touch| self.iterates[touch].best = self.iterates[touch].p);
+        own.iter().for_each(|&contact| self.iterates[contact].best = self.iterates[contact].p);
     }
 
     /// Takes a couple's bounds from its point's impulse.
-    pub(super) fn renew_law(&mut self, view: View, touch: usize) {
-        if let Law::Couple(..) = self.iterates[touch].law
-            && let Some(twist) = view.touches[touch].twist
+    pub(super) fn renew_law(&mut self, view: ProblemView, contact: usize) {
+        if let ContactLaw::Couple(..) = self.iterates[contact].law
+            && let Some(twist) = view.contacts[contact].twist
         {
-            self.iterates[touch].law = view.touches[touch].law(self.iterates[twist.of].p.x);
+            self.iterates[contact].law = view.contacts[contact].law(self.iterates[twist.of].p.x);
         }
     }
 
     /// By how much touches miss their laws at most, each by what a step of its own would change, m/s.
-    pub(super) fn missed(&mut self, view: View, own: &[usize]) -> f64 {
+    pub(super) fn missed(&mut self, view: ProblemView, own: &[usize]) -> f64 {
         let mut most: f64 = 0.0;
-        for &touch in own {
-            self.renew_law(view, touch);
-            let iterate = &self.iterates[touch];
+        for &contact in own {
+            self.renew_law(view, contact);
+            let iterate = &self.iterates[contact];
             most = worse(most, iterate.misses(iterate.law.relax(&iterate.answer, iterate.p, iterate.over(iterate.u))));
         }
         most
     }
 
     /// Lets touch after touch satisfy its law. Answers by how much they missed it at most, m/s.
-    fn sweep(&mut self, view: View, own: &[usize]) -> f64 {
+    fn sweep(&mut self, view: ProblemView, own: &[usize]) -> f64 {
         let mut most: f64 = 0.0;
-        self.effort += SWEPT * own.len() as u64;
-        for &touch in own {
-            self.renew_law(view, touch);
-            self.iterates[touch].u = self.iterates[touch].start + times(view, touch, &self.z);
-            let iterate = &mut self.iterates[touch];
+        self.operations += SWEEP_CONTACT_OPERATIONS * own.len() as u64;
+        for &contact in own {
+            self.renew_law(view, contact);
+            self.iterates[contact].u = self.iterates[contact].start + times(view, contact, &self.z);
+            let iterate = &mut self.iterates[contact];
             let to = iterate.law.relax(&iterate.answer, iterate.p, iterate.over(iterate.u));
             most = worse(most, iterate.misses(to));
             let change = to - iterate.p;
             iterate.p = to;
-            add_transposed(view, touch, change, &mut self.z);
+            add_transposed(view, contact, change, &mut self.z);
         }
         most
     }
 
     /// Lets coordinates and velocities of an island follow from its impulses.
-    pub fn follow(&mut self, view: View, island: &Island) {
-        let own = &view.islands.touches[island.touches.clone()];
+    pub fn follow(&mut self, view: ProblemView, island: &Island) {
+        let own = &view.islands.contacts[island.contacts.clone()];
         self.z[island.coordinates.clone()].fill(0.0);
-        for &touch in own {
-            let Iterate { p, before, .. } = self.iterates[touch];
-            add_transposed(view, touch, p - before, &mut self.z);
+        for &contact in own {
+            let Iterate { p, before, .. } = self.iterates[contact];
+            add_transposed(view, contact, p - before, &mut self.z);
         }
-        for &touch in own {
-            self.iterates[touch].u = self.iterates[touch].start + times(view, touch, &self.z);
+        for &contact in own {
+            self.iterates[contact].u = self.iterates[contact].start + times(view, contact, &self.z);
         }
     }
 }
@@ -288,8 +291,8 @@ fn worse(most: f64, other: f64) -> f64 {
 
 /// B z of a touch.
 #[inline]
-pub(super) fn times(view: View, touch: usize, z: &[f64]) -> DVec3 {
-    let own = &view.touches[touch];
+pub(super) fn times(view: ProblemView, contact: usize, z: &[f64]) -> DVec3 {
+    let own = &view.contacts[contact];
     let mut u = DVec3::ZERO;
     for part in view.coordinates.parts_of(own) {
         let size = view.coordinates.nodes[part.node].size;
@@ -316,11 +319,11 @@ pub(super) fn times(view: View, touch: usize, z: &[f64]) -> DVec3 {
 
 /// Adds Bᵀ p of a touch.
 #[inline]
-pub(super) fn add_transposed(view: View, touch: usize, p: DVec3, z: &mut [f64]) {
+pub(super) fn add_transposed(view: ProblemView, contact: usize, p: DVec3, z: &mut [f64]) {
     if p == DVec3::ZERO {
         return;
     }
-    let own = &view.touches[touch];
+    let own = &view.contacts[contact];
     for part in view.coordinates.parts_of(own) {
         let size = view.coordinates.nodes[part.node].size;
         let z = &mut z[view.islands.place[part.node]..][..size];

@@ -10,7 +10,7 @@ use soffio_geometry::bodies::RigidBody;
 
 /// The first hit of a substep.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::dynamics) struct Hit {
+pub(in crate::dynamics) struct EarliestImpact {
     /// Share of the substep.
     pub s: f64,
     pub(super) source: Source,
@@ -18,9 +18,13 @@ pub(in crate::dynamics) struct Hit {
 
 impl Contacts {
     /// The first hit of anything that is apart, between two states of the bodies.
-    pub(in crate::dynamics) fn first_impact(&mut self, before: &[RigidBody], after: &[RigidBody]) -> Option<Hit> {
-        self.near.find(before, after, &self.sleepers.bodies);
-        let mut first: Option<Hit> = None;
+    pub(in crate::dynamics) fn first_impact(
+        &mut self,
+        before: &[RigidBody],
+        after: &[RigidBody],
+    ) -> Option<EarliestImpact> {
+        self.near.find(before, after, &self.sleeping.bodies);
+        let mut first: Option<EarliestImpact> = None;
         for near in 0..self.near.list.len() {
             self.meet(self.near.list[near], before, after, &mut first);
         }
@@ -32,7 +36,7 @@ impl Contacts {
                 if self.impacts_left == 0 {
                     self.resting.set_bound(bound, true, &mut self.limits);
                 } else if first.is_none_or(|f| s < f.s) {
-                    first = Some(Hit { s, source: Source::Bound(bound) });
+                    first = Some(EarliestImpact { s, source: Source::Bound(bound) });
                 }
             }
         }
@@ -40,12 +44,12 @@ impl Contacts {
     }
 
     /// The earliest hit so far, or an earlier one of this pair.
-    fn meet(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody], first: &mut Option<Hit>) {
+    fn meet(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody], first: &mut Option<EarliestImpact>) {
         let Some(TimeOfImpact { s, .. }) = self.meets(pair, before, after) else { return };
         if self.impacts_left == 0 {
             self.resting.set(pair, true);
         } else if first.is_none_or(|f| s < f.s) {
-            *first = Some(Hit { s, source: Source::Pair(pair) });
+            *first = Some(EarliestImpact { s, source: Source::Pair(pair) });
         }
     }
 

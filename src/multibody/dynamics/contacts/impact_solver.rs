@@ -12,9 +12,9 @@
 //!
 //! Hits travel: what approaches after one is hit next, in a fixed order, so that of a row of balls the last one leaves.
 
-use super::contact::{LOCKED, Source, Touch};
-use super::contact_problem::Problem;
-use super::earliest_impact::Hit;
+use super::contact::{Contact, LOCKED, Source};
+use super::contact_problem::ContactProblem;
+use super::earliest_impact::EarliestImpact;
 use super::impact::{Impact, ImpactKind};
 use super::jacobian_row::point_rows;
 use super::reduced_coordinates::Mechanisms;
@@ -35,7 +35,7 @@ const ONE_TIME: f64 = 1.0 / 48_000.0;
 /// 1/ω₀ with which joints of a figure that is struck by hand gather, s: none of them is open.
 const GATHERS: f64 = 0.04;
 /// Hits that travel from one, at most.
-const MOST_ROUNDS: usize = 256;
+const MAX_IMPACTS_PROPAGATED: usize = 256;
 
 /// Where and how two bodies are struck against each other.
 #[derive(Clone, Copy, Debug)]
@@ -71,9 +71,9 @@ pub fn resolve_point_impact(
     bodies: &mut [RigidBody],
 ) -> Option<PointImpactResult> {
     let mechanisms = Mechanisms::new(system.constraints(), system.driven());
-    let mut problem = Problem::new(1, mechanisms, (system.states().len(), GATHERS));
-    let touch = Touch::new(Source::Pair(0), impact.point, impact.normal, 0.0, impact.friction);
-    problem.push(touch, &point_rows(impact.point, impact.normal, impact.bodies, bodies));
+    let mut problem = ContactProblem::new(1, mechanisms, (system.states().len(), GATHERS));
+    let contact = Contact::new(Source::Pair(0), impact.point, impact.normal, 0.0, impact.friction);
+    problem.push(contact, &point_rows(impact.point, impact.normal, impact.bodies, bodies));
     problem.assemble(system, bodies);
     let struck = resolve_single_contact(&mut problem, impact.restitution)?;
     problem.apply(system, bodies);
@@ -81,18 +81,18 @@ pub fn resolve_point_impact(
 }
 
 /// The impulse of a problem of one touch.
-fn resolve_single_contact(problem: &mut Problem, restitution: f64) -> Option<PointImpactResult> {
-    let touch = problem.touches[0];
+fn resolve_single_contact(problem: &mut ContactProblem, restitution: f64) -> Option<PointImpactResult> {
+    let contact = problem.contacts[0];
     let u = problem.velocity(0);
-    let k = touch.k();
+    let k = contact.k();
     if k.x_axis.x < LOCKED || u.x >= 0.0 {
         return None;
     }
-    if touch.rows == 1 {
-        problem.touches[0].impulse = DVec3::X * (-(1.0 + restitution) * u.x / k.x_axis.x);
+    if contact.rows == 1 {
+        problem.contacts[0].impulse = DVec3::X * (-(1.0 + restitution) * u.x / k.x_axis.x);
         problem.follow();
         return Some(PointImpactResult {
-            impulse: DVec3::Z * problem.touches[0].impulse.x,
+            impulse: DVec3::Z * problem.contacts[0].impulse.x,
             velocity: DVec3::Z * u.x,
             k: *k,
         });
@@ -101,8 +101,8 @@ fn resolve_single_contact(problem: &mut Problem, restitution: f64) -> Option<Poi
     let turn = |v: DVec3| DVec3::new(v.y, v.z, v.x);
     let k = DMat3::from_cols(turn(k.y_axis), turn(k.z_axis), turn(k.x_axis));
     let velocity = turn(u);
-    let p = impulse(&k, velocity, touch.friction, restitution);
-    problem.touches[0].impulse = DVec3::new(p.z, p.x, p.y);
+    let p = impulse(&k, velocity, contact.friction, restitution);
+    problem.contacts[0].impulse = DVec3::new(p.z, p.x, p.y);
     problem.follow();
     Some(PointImpactResult { impulse: p, velocity, k })
 }
@@ -110,28 +110,28 @@ fn resolve_single_contact(problem: &mut Problem, restitution: f64) -> Option<Poi
 impl Contacts {
     /// Resolves a hit at the bodies' present state and all that it sets off; `h` is the length of a substep. The
     /// joints must be factored there.
-    pub(in crate::dynamics) fn resolve_hit(
+    pub(in crate::dynamics) fn resolve_impact(
         &mut self,
-        hit: &Hit,
+        hit: &EarliestImpact,
         (time, h): (f64, f64),
         system: &mut System,
         bodies: &mut [RigidBody],
         impacts: &mut Vec<Impact>,
     ) {
         // Hits change speeds, not places: what is near stays so.
-        self.near.find(bodies, bodies, &self.sleepers.bodies);
+        self.near.find(bodies, bodies, &self.sleeping.bodies);
         let mut next = Some(hit.source);
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_IMPACTS_PROPAGATED {
             let Some(source) = next else { break };
             self.impacts_left = self.impacts_left.saturating_sub(1);
             self.collect(source, bodies);
-            if self.problem.touches.is_empty() {
+            if self.problem.contacts.is_empty() {
                 // It touches, but nothing approaches: what little there is belongs to rest.
                 self.resting.set_source(source, true, &mut self.limits);
                 self.collect_all(source, bodies);
                 self.problem.assemble(system, bodies);
-                let touches = self.problem.touches.len();
-                impacts.extend((touches > 0).then(|| self.tell(source, time, (0, touches), 0.0, true)));
+                let contacts = self.problem.contacts.len();
+                impacts.extend((contacts > 0).then(|| self.impact_event(source, time, (0, contacts), 0.0, true)));
                 break;
             }
             self.problem.assemble(system, bodies);
@@ -140,14 +140,14 @@ impl Contacts {
             self.problem.apply(system, bodies);
             next = self.approaching(bodies);
         }
-        if self.anything_rests() {
-            self.steady(h, system, bodies);
+        if self.has_resting_contacts() {
+            self.remove_residual_approach(h, system, bodies);
         }
     }
 
     /// Seconds until what is to be hit is half into the touching layer, at the bodies' present state: sweeps go straight,
     /// bodies do not. Negative where they have passed it; 0 where it cannot be told.
-    pub(in crate::dynamics) fn early(&mut self, hit: &Hit, bodies: &[RigidBody]) -> f64 {
+    pub(in crate::dynamics) fn time_to_contact(&mut self, hit: &EarliestImpact, bodies: &[RigidBody]) -> f64 {
         let (gap, speed) = match hit.source {
             Source::Bound(bound) => {
                 let (gap, row, _) = self.limits.row(bound, bodies);
@@ -212,45 +212,45 @@ impl Contacts {
     /// Finds the impulses of the problem's touches, says what they do, and decides what rests from now on.
     fn bounce(&mut self, time: f64, impacts: &mut Vec<Impact>) {
         // Touches stand in the order of their sources.
-        let count = self.problem.touches.len();
+        let count = self.problem.contacts.len();
         let mut least_e: f64 = 1.0;
         let mut first = 0;
         let began = impacts.len();
         while first < count {
-            let source = self.problem.touches[first].source;
-            let end = (first..count).find(|&i| self.problem.touches[i].source != source).unwrap_or(count);
-            let speed = (first..end).fold(0.0, |most: f64, touch| most.max(-self.problem.velocity(touch).x));
-            let (e, rests) = self.judge(source, time, speed);
+            let source = self.problem.contacts[first].source;
+            let end = (first..count).find(|&i| self.problem.contacts[i].source != source).unwrap_or(count);
+            let speed = (first..end).fold(0.0, |most: f64, contact| most.max(-self.problem.velocity(contact).x));
+            let (e, rests) = self.classify_impact(source, time, speed);
             least_e = least_e.min(e);
-            for touch in &mut self.problem.touches[first..end] {
+            for contact in &mut self.problem.contacts[first..end] {
                 // The rounds leave this alone; restitution reads it.
-                touch.least = e;
+                contact.least = e;
             }
-            impacts.push(self.tell(source, time, (first, end), speed, rests));
+            impacts.push(self.impact_event(source, time, (first, end), speed, rests));
             first = end;
         }
         if count == 1 {
-            let e = self.problem.touches[0].least;
-            self.problem.touches[0].least = 0.0;
+            let e = self.problem.contacts[0].least;
+            self.problem.contacts[0].least = 0.0;
             let _ = resolve_single_contact(&mut self.problem, e);
         } else {
             bounce_together(&mut self.problem, least_e);
         }
         for impact in &mut impacts[began..] {
-            let own = |touch: &&Touch| match touch.source {
+            let own = |contact: &&Contact| match contact.source {
                 Source::Pair(pair) => {
                     let colliders = self.surfaces.pairs[pair].pair;
                     impact.colliders == Some([colliders.a, colliders.b])
                 }
                 Source::Bound(_) => true,
             };
-            let sum = self.problem.touches.iter().filter(own).fold(DVec3::ZERO, |sum, touch| sum + touch.impulse);
+            let sum = self.problem.contacts.iter().filter(own).fold(DVec3::ZERO, |sum, contact| sum + contact.impulse);
             impact.impulse = sum.length();
         }
     }
 
     /// Restitution of a hit at this speed, and whether it is the beginning of rest.
-    pub(super) fn judge(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
+    pub(super) fn classify_impact(&mut self, source: Source, time: f64, speed: f64) -> (f64, bool) {
         let now = self.clock + time;
         let last = match source {
             Source::Pair(pair) => &mut self.resting.last_hit[pair],
@@ -268,7 +268,7 @@ impl Contacts {
     }
 
     /// The event of touches `first..end`, all of one source; its impulse is not known yet.
-    pub(super) fn tell(
+    pub(super) fn impact_event(
         &self,
         source: Source,
         time: f64,
@@ -276,8 +276,8 @@ impl Contacts {
         speed: f64,
         rests: bool,
     ) -> Impact {
-        let touches = &self.problem.touches[first..end];
-        let middle = touches.iter().fold(DVec3::ZERO, |sum, t| sum + t.point) / touches.len() as f64;
+        let contacts = &self.problem.contacts[first..end];
+        let middle = contacts.iter().fold(DVec3::ZERO, |sum, t| sum + t.point) / contacts.len() as f64;
         let (bodies, colliders, moving) = match source {
             Source::Pair(pair) => {
                 let at = self.surfaces.pairs[pair].pair;
@@ -291,10 +291,10 @@ impl Contacts {
             bodies,
             colliders,
             point: middle,
-            normal: touches[0].normal,
+            normal: contacts[0].normal,
             impulse: 0.0,
             speed,
-            mass: 1.0 / touches[0].k().x_axis.x.max(LOCKED),
+            mass: 1.0 / contacts[0].k().x_axis.x.max(LOCKED),
         }
     }
 
@@ -319,11 +319,11 @@ impl Contacts {
 }
 
 /// One hit at several touches; each touch's `least` holds its restitution, which goes over to `begin.x`.
-fn bounce_together(problem: &mut Problem, least_e: f64) {
+fn bounce_together(problem: &mut ContactProblem, least_e: f64) {
     let mut most: f64 = 0.0;
-    for touch in &mut problem.touches {
-        most = most.max(touch.least);
-        (touch.begin.x, touch.least) = (touch.least, 0.0);
+    for contact in &mut problem.contacts {
+        most = most.max(contact.least);
+        (contact.begin.x, contact.least) = (contact.least, 0.0);
     }
     // Compression ends all approach.
     problem.solve();
@@ -331,14 +331,14 @@ fn bounce_together(problem: &mut Problem, least_e: f64) {
         return;
     }
     let compressed = problem.work();
-    for touch in &mut problem.touches {
-        let e = touch.begin.x;
-        touch.begin = touch.impulse;
-        touch.impulse.x *= 1.0 + e;
+    for contact in &mut problem.contacts {
+        let e = contact.begin.x;
+        contact.begin = contact.impulse;
+        contact.impulse.x *= 1.0 + e;
     }
     problem.solve_friction();
     if problem.work() > compressed * (1.0 - most * most) {
-        problem.touches.iter_mut().for_each(|touch| touch.impulse = (1.0 + least_e) * touch.begin);
+        problem.contacts.iter_mut().for_each(|contact| contact.impulse = (1.0 + least_e) * contact.begin);
         problem.follow();
     }
 }

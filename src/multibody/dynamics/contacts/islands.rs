@@ -4,8 +4,8 @@
 //! nodes stand in the reverse order of E. Cuthill and J. McKee ("Reducing the bandwidth of sparse symmetric matrices", 1969):
 //! outwards from one end, layer by layer, so that the matrix of a tower, a wall or a heap is a band as wide as a layer.
 
-use super::contact::Touch;
-use super::reduced_coordinates::{Coordinates, Part};
+use super::contact::Contact;
+use super::reduced_coordinates::{Coordinates, NodeBlock};
 use std::ops::Range;
 
 /// One island: its coordinates, and its touches in [`Islands::touches`].
@@ -13,7 +13,7 @@ use std::ops::Range;
 pub(super) struct Island {
     nodes: Range<usize>,
     pub coordinates: Range<usize>,
-    pub touches: Range<usize>,
+    pub contacts: Range<usize>,
 }
 
 /// The islands of a problem.
@@ -21,7 +21,7 @@ pub(super) struct Island {
 pub(super) struct Islands {
     pub islands: Vec<Island>,
     /// Touches that something answers, island by island, each island's in their order.
-    pub touches: Vec<usize>,
+    pub contacts: Vec<usize>,
     /// First coordinate of each node, and of the first one that it shares a touch with and that stands before it.
     pub place: Vec<usize>,
     pub reach: Vec<usize>,
@@ -40,16 +40,16 @@ const PLACED: u8 = 2;
 
 impl Islands {
     /// Room for so many nodes and touches.
-    pub fn with_room(nodes: usize, touches: usize) -> Self {
+    pub fn with_room(nodes: usize, contacts: usize) -> Self {
         let of_nodes = || Vec::with_capacity(nodes + 1);
         Self {
             islands: Vec::with_capacity(nodes),
-            touches: Vec::with_capacity(3 * touches),
+            contacts: Vec::with_capacity(3 * contacts),
             place: of_nodes(),
             reach: of_nodes(),
             order: of_nodes(),
             first: of_nodes(),
-            at_node: Vec::with_capacity(3 * touches),
+            at_node: Vec::with_capacity(3 * contacts),
             ends: of_nodes(),
             seen: Vec::with_capacity(nodes),
         }
@@ -61,17 +61,17 @@ impl Islands {
     }
 
     /// Finds them.
-    pub fn find(&mut self, coordinates: &Coordinates, touches: &[Touch]) {
+    pub fn find(&mut self, coordinates: &Coordinates, contacts: &[Contact]) {
         let nodes = coordinates.nodes.len();
         self.list_touches(nodes, &coordinates.parts);
         self.islands.clear();
-        self.touches.clear();
+        self.contacts.clear();
         self.order.clear();
         self.seen.clear();
         self.seen.resize(nodes, NEW);
         self.place.clear();
         self.place.resize(nodes, 0);
-        let parts = |touch: usize| coordinates.parts_of(&touches[touch]);
+        let parts = |contact: usize| coordinates.parts_of(&contacts[contact]);
         let mut at = 0;
         for start in 0..nodes {
             if self.seen[start] != NEW {
@@ -84,39 +84,39 @@ impl Islands {
             self.order.truncate(begin);
             self.spread(end, PLACED, &parts);
             self.order[begin..].reverse();
-            let (from, begun) = (at, self.touches.len());
+            let (from, begun) = (at, self.contacts.len());
             for &node in &self.order[begin..] {
                 self.place[node] = at;
                 at += coordinates.nodes[node].size;
             }
             for &node in &self.order[begin..] {
-                self.touches.extend(&self.at_node[self.first[node]..self.first[node + 1]]);
+                self.contacts.extend(&self.at_node[self.first[node]..self.first[node + 1]]);
             }
-            let own = &mut self.touches[begun..];
+            let own = &mut self.contacts[begun..];
             own.sort_unstable();
             // A touch between two nodes was listed twice.
             let mut kept = begun;
-            for k in begun..self.touches.len() {
-                if k == begun || self.touches[k] != self.touches[kept - 1] {
-                    self.touches[kept] = self.touches[k];
+            for k in begun..self.contacts.len() {
+                if k == begun || self.contacts[k] != self.contacts[kept - 1] {
+                    self.contacts[kept] = self.contacts[k];
                     kept += 1;
                 }
             }
-            self.touches.truncate(kept);
-            self.islands.push(Island { nodes: begin..self.order.len(), coordinates: from..at, touches: begun..kept });
+            self.contacts.truncate(kept);
+            self.islands.push(Island { nodes: begin..self.order.len(), coordinates: from..at, contacts: begun..kept });
         }
         self.reach.clear();
         self.reach.extend(&self.place);
-        for &touch in &self.touches {
-            let least = parts(touch).iter().map(|part| self.place[part.node]).min().unwrap_or(0);
-            for part in parts(touch) {
+        for &contact in &self.contacts {
+            let least = parts(contact).iter().map(|part| self.place[part.node]).min().unwrap_or(0);
+            for part in parts(contact) {
                 self.reach[part.node] = self.reach[part.node].min(least);
             }
         }
     }
 
     /// Lists the touches of every node.
-    fn list_touches(&mut self, nodes: usize, parts: &[Part]) {
+    fn list_touches(&mut self, nodes: usize, parts: &[NodeBlock]) {
         self.first.clear();
         self.first.resize(nodes + 1, 0);
         parts.iter().for_each(|part| self.first[part.node + 1] += 1);
@@ -131,13 +131,13 @@ impl Islands {
         left.extend(&self.first[1..]);
         for part in parts.iter().rev() {
             left[part.node] -= 1;
-            self.at_node[left[part.node]] = part.touch;
+            self.at_node[left[part.node]] = part.contact;
         }
         self.ends = left;
     }
 
     /// Appends the island of a node to the order, outwards from it, what touches little first.
-    fn spread<'a>(&mut self, from: usize, mark: u8, parts: &impl Fn(usize) -> &'a [Part]) {
+    fn spread<'a>(&mut self, from: usize, mark: u8, parts: &impl Fn(usize) -> &'a [NodeBlock]) {
         let mut next = self.order.len();
         self.order.push(from);
         self.seen[from] = mark;

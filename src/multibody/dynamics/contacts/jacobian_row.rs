@@ -9,11 +9,11 @@ pub const MAX_ROW_BODIES: usize = 3;
 
 /// One row: the blocks of the bodies it acts on.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::dynamics) struct Row {
+pub(in crate::dynamics) struct JacobianRow {
     pub ends: [Option<(usize, Vec6)>; MAX_ROW_BODIES],
 }
 
-impl Row {
+impl JacobianRow {
     /// Adds `scale` times a block of a body; nothing for the world.
     pub fn add(&mut self, body: Option<usize>, scale: f64, block: &Vec6) {
         let Some(body) = body else { return };
@@ -41,22 +41,27 @@ impl Row {
 }
 
 /// Rows of a point contact: normal, then two tangents.
-pub(super) fn point_rows(point: DVec3, normal: DVec3, [a, b]: [Option<usize>; 2], bodies: &[RigidBody]) -> [Row; 3] {
+pub(super) fn point_rows(
+    point: DVec3,
+    normal: DVec3,
+    [a, b]: [Option<usize>; 2],
+    bodies: &[RigidBody],
+) -> [JacobianRow; 3] {
     let (t, u) = tangents(normal);
     [normal, t, u].map(|axis| {
         let end = |body: Option<usize>, sign: f64| {
             let along = sign * axis;
             body.map(|i| (i, vec6(along, (point - bodies[i].position).cross(along))))
         };
-        Row { ends: [end(a, 1.0), end(b, -1.0), None] }
+        JacobianRow { ends: [end(a, 1.0), end(b, -1.0), None] }
     })
 }
 
 /// Rows of a couple between two bodies: about the normal, then about two tangents.
-pub(super) fn twist_rows(normal: DVec3, [a, b]: [Option<usize>; 2]) -> [Row; 3] {
+pub(super) fn rolling_resistance_rows(normal: DVec3, [a, b]: [Option<usize>; 2]) -> [JacobianRow; 3] {
     let (t, u) = tangents(normal);
     [normal, t, u].map(|axis| {
         let end = |body: Option<usize>, sign: f64| body.map(|i| (i, vec6(DVec3::ZERO, sign * axis)));
-        Row { ends: [end(a, 1.0), end(b, -1.0), None] }
+        JacobianRow { ends: [end(a, 1.0), end(b, -1.0), None] }
     })
 }

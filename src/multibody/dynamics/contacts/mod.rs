@@ -37,11 +37,11 @@ mod time_stepping;
 
 pub use contact::RollingResistance;
 pub use contact_report::ContactReport;
-pub(super) use earliest_impact::Hit;
+pub(super) use earliest_impact::EarliestImpact;
 pub use impact::{Impact, ImpactKind, SurfacePair};
 pub use impact_solver::{PointImpact, PointImpactResult, resolve_point_impact};
+pub(super) use jacobian_row::JacobianRow;
 pub use jacobian_row::MAX_ROW_BODIES;
-pub(super) use jacobian_row::Row;
-pub(super) use resting_contact::{LAST_PASS, Verdict};
+pub(super) use resting_contact::{LAST_PASS, PassOutcome};
 pub use state::Contacts;
 pub use swept_contact::{SweptContact, rolling_rows};

@@ -6,7 +6,7 @@ use soffio_geometry::bodies::RigidBody;
 
 /// The broad phase of a figure.
 #[derive(Clone, Debug)]
-pub(super) struct Near {
+pub(super) struct NearbyPairs {
     broad: BroadPhase,
     /// Pairs whose boxes overlap, ascending: over the present substep, or where bodies are at a hit.
     pub list: Vec<usize>,
@@ -19,7 +19,7 @@ pub(super) struct Near {
     pub all: Option<usize>,
 }
 
-impl Near {
+impl NearbyPairs {
     /// Of these pairs of colliders, for so many bodies.
     pub fn new(colliders: &[Collider], pairs: &[Pair], bodies: usize) -> Self {
         Self {

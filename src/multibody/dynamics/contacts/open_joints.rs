@@ -31,7 +31,7 @@ const REPEATS: f64 = 1e-10;
 
 /// The open rows and their part in the touches' answer.
 #[derive(Clone, Debug)]
-pub(super) struct Open {
+pub(super) struct OpenJoints {
     /// The open rows, each with its β.
     rows: Vec<(usize, f64)>,
     room: usize,
@@ -43,7 +43,7 @@ pub(super) struct Open {
     solved: Vec<f64>,
 }
 
-impl Open {
+impl OpenJoints {
     /// Room for the open rows of a system with this many rows, and for about so many columns of touches.
     pub fn new(rows: usize, time: f64, columns: usize) -> Self {
         let room = rows.min(MOST_OPEN);

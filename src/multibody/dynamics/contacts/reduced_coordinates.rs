@@ -20,9 +20,9 @@
 //! Columns of W take one solve of the joints each; mechanisms do not feel each other's, so one solve serves the k-th rows of
 //! all of them.
 
-use super::contact::Touch;
-use super::jacobian_row::{MAX_ROW_BODIES, Row};
-use super::open_joints::Open;
+use super::contact::Contact;
+use super::jacobian_row::{JacobianRow, MAX_ROW_BODIES};
+use super::open_joints::OpenJoints;
 use crate::articulation::{Constraint, Geared, Groups, System};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, angular, linear};
@@ -46,16 +46,16 @@ pub(in crate::dynamics) struct Mechanisms {
 
 impl Mechanisms {
     /// Those that these constraints make of the bodies that are not driven.
-    pub fn new(constraints: &[Constraint], driven: &[bool]) -> Self {
-        let n = driven.len();
+    pub fn new(constraints: &[Constraint], is_kinematic: &[bool]) -> Self {
+        let n = is_kinematic.len();
         let mut groups = Groups::new(n);
         let mut free = vec![true; n];
         for constraint in constraints {
-            let held = || (0..n).filter(|&body| !driven[body] && constraint.kind.touches(body));
+            let held = || (0..n).filter(|&body| !is_kinematic[body] && constraint.kind.touches(body));
             groups.join_all(held());
             held().for_each(|body| free[body] = false);
         }
-        let first = (0..n).map(|body| if driven[body] { NONE } else { groups.first(body) }).collect();
+        let first = (0..n).map(|body| if is_kinematic[body] { NONE } else { groups.first(body) }).collect();
         Self { first, free }
     }
 
@@ -80,16 +80,16 @@ pub(super) struct Node {
 
 /// How the rows of a touch move one node: a matrix of `rows` by the node's size, row by row.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct NodeBlock {
     pub node: usize,
-    pub touch: usize,
+    pub contact: usize,
     /// Where its numbers begin.
     pub at: usize,
 }
 
 /// A row of the problem, as far as it touches one mechanism.
 #[derive(Clone, Copy, Debug)]
-struct Line {
+struct MechanismRow {
     row: usize,
     part: usize,
     geared: Option<Geared<MAX_ROW_BODIES>>,
@@ -102,32 +102,32 @@ pub(super) struct Coordinates {
     /// Node of each mechanism by its first body, in the present problem.
     node_of: Vec<usize>,
     pub nodes: Vec<Node>,
-    pub parts: Vec<Part>,
+    pub parts: Vec<NodeBlock>,
     pub jacobian: Vec<f64>,
-    lines: Vec<Line>,
+    lines: Vec<MechanismRow>,
     /// W of all mechanisms, one after the other, row by row.
     w: Vec<f64>,
     /// Scratch of the factor: what is left of each line's own answer, that answer, and B.
     left: Vec<[f64; 2]>,
     b: Vec<f64>,
-    open: Open,
+    open: OpenJoints,
 }
 
 impl Coordinates {
     /// For problems among these mechanisms, of about so many touches.
-    pub fn new(mechanisms: Mechanisms, touches: usize, (joint_rows, time): (usize, f64)) -> Self {
+    pub fn new(mechanisms: Mechanisms, contacts: usize, (joint_rows, time): (usize, f64)) -> Self {
         let bodies = mechanisms.first.len();
-        let rows = if mechanisms.free.iter().all(|free| *free) { 0 } else { 3 * touches.min(ROOM) };
+        let rows = if mechanisms.free.iter().all(|free| *free) { 0 } else { 3 * contacts.min(ROOM) };
         Self {
             node_of: vec![NONE; bodies],
             nodes: Vec::with_capacity(bodies),
-            parts: Vec::with_capacity(3 * touches),
-            jacobian: Vec::with_capacity(36 * touches + rows * rows),
+            parts: Vec::with_capacity(3 * contacts),
+            jacobian: Vec::with_capacity(36 * contacts + rows * rows),
             lines: Vec::with_capacity(2 * rows),
             w: Vec::with_capacity(rows * rows),
             left: Vec::with_capacity(rows),
             b: Vec::with_capacity(rows * rows),
-            open: Open::new(joint_rows, time, 2 * rows),
+            open: OpenJoints::new(joint_rows, time, 2 * rows),
             mechanisms,
         }
     }
@@ -138,24 +138,30 @@ impl Coordinates {
     }
 
     /// The parts of a touch.
-    pub fn parts_of(&self, touch: &Touch) -> &[Part] {
-        &self.parts[touch.parts.0..touch.parts.1]
+    pub fn parts_of(&self, contact: &Contact) -> &[NodeBlock] {
+        &self.parts[contact.parts.0..contact.parts.1]
     }
 
     /// The matrix of a part.
-    pub fn block(&self, part: &Part, rows: usize) -> &[f64] {
+    pub fn block(&self, part: &NodeBlock, rows: usize) -> &[f64] {
         &self.jacobian[part.at..][..rows * self.nodes[part.node].size]
     }
 
     /// Finds nodes and matrices at the bodies' present state; the joints must be factored there.
-    pub fn assemble(&mut self, touches: &mut [Touch], rows: &[Row], system: &mut System, bodies: &[RigidBody]) {
-        self.find_parts(touches, rows, bodies);
+    pub fn assemble(
+        &mut self,
+        contacts: &mut [Contact],
+        rows: &[JacobianRow],
+        system: &mut System,
+        bodies: &[RigidBody],
+    ) {
+        self.find_parts(contacts, rows, bodies);
         self.open.find(system);
         if !self.lines.is_empty() {
             self.find_lines(system, rows);
             self.solve_lines(system, rows);
             (0..self.nodes.len()).for_each(|node| self.factor_mechanism(node));
-            self.write_blocks(touches);
+            self.write_blocks(contacts);
         }
         for node in &self.nodes {
             self.node_of[node.body] = NONE;
@@ -163,21 +169,21 @@ impl Coordinates {
     }
 
     /// Finds nodes and parts, and the matrices of free bodies.
-    fn find_parts(&mut self, touches: &mut [Touch], rows: &[Row], bodies: &[RigidBody]) {
+    fn find_parts(&mut self, contacts: &mut [Contact], rows: &[JacobianRow], bodies: &[RigidBody]) {
         self.nodes.clear();
         self.parts.clear();
         self.jacobian.clear();
         self.lines.clear();
-        for (index, touch) in touches.iter_mut().enumerate() {
+        for (index, contact) in contacts.iter_mut().enumerate() {
             let first = self.parts.len();
-            let own = &rows[touch.first..touch.first + touch.rows];
+            let own = &rows[contact.first..contact.first + contact.rows];
             for (end, (body, _)) in own[0].ends.iter().enumerate().filter_map(|(k, end)| Some((k, end.as_ref()?))) {
                 let Some(node) = self.node(*body) else { continue };
                 if self.parts[first..].iter().any(|part| part.node == node) {
                     continue;
                 }
                 let at = self.jacobian.len();
-                self.parts.push(Part { node, touch: index, at });
+                self.parts.push(NodeBlock { node, contact: index, at });
                 if self.nodes[node].free {
                     let body = &bodies[*body];
                     let (lightness, f) = (body.properties.mass.sqrt().recip(), spin_factor(body));
@@ -189,10 +195,14 @@ impl Coordinates {
                 } else {
                     let part = self.parts.len() - 1;
                     self.nodes[node].lines.1 += own.len();
-                    self.lines.extend((touch.first..).take(own.len()).map(|row| Line { row, part, geared: None }));
+                    self.lines.extend((contact.first..).take(own.len()).map(|row| MechanismRow {
+                        row,
+                        part,
+                        geared: None,
+                    }));
                 }
             }
-            touch.parts = (first, self.parts.len());
+            contact.parts = (first, self.parts.len());
         }
     }
 
@@ -211,7 +221,7 @@ impl Coordinates {
     }
 
     /// Brings the lines into the order of their nodes, and says which push trains alone.
-    fn find_lines(&mut self, system: &System, rows: &[Row]) {
+    fn find_lines(&mut self, system: &System, rows: &[JacobianRow]) {
         let Self { lines, parts, nodes, mechanisms, open, .. } = self;
         lines.sort_unstable_by_key(|line| (parts[line.part].node, line.row));
         let (mut first, mut w) = (0, 0);
@@ -235,7 +245,7 @@ impl Coordinates {
     }
 
     /// Finds W of every mechanism.
-    fn solve_lines(&mut self, system: &mut System, rows: &[Row]) {
+    fn solve_lines(&mut self, system: &mut System, rows: &[JacobianRow]) {
         let most = self.nodes.iter().map(|node| node.lines.1 - node.lines.0).max().unwrap_or(0);
         for k in 0..most {
             let has = |node: &Node| node.lines.0 + k < node.lines.1;
@@ -305,8 +315,8 @@ impl Coordinates {
     }
 
     /// Lays a unit impulse of a line on its bodies.
-    fn push(&self, line: usize, rows: &[Row], system: &mut System) {
-        let Line { row, part, .. } = self.lines[line];
+    fn push(&self, line: usize, rows: &[JacobianRow], system: &mut System) {
+        let MechanismRow { row, part, .. } = self.lines[line];
         let own = within(&self.mechanisms, &rows[row], self.nodes[self.parts[part].node].body);
         for (body, block) in own.iter().flatten() {
             system.push_impulse(*body, block, 1.0);
@@ -314,9 +324,9 @@ impl Coordinates {
     }
 
     /// A line times the bodies' coordinates.
-    fn along(&self, line: usize, rows: &[Row], a: &[Vec6]) -> f64 {
-        let Line { row, part, .. } = self.lines[line];
-        Row { ends: within(&self.mechanisms, &rows[row], self.nodes[self.parts[part].node].body) }.along(a)
+    fn along(&self, line: usize, rows: &[JacobianRow], a: &[Vec6]) -> f64 {
+        let MechanismRow { row, part, .. } = self.lines[line];
+        JacobianRow { ends: within(&self.mechanisms, &rows[row], self.nodes[self.parts[part].node].body) }.along(a)
     }
 
     /// Factors W of a mechanism, W = B Bᵀ, pivot after pivot the line of which most is left; B's lines stand in `b`.
@@ -355,17 +365,17 @@ impl Coordinates {
     }
 
     /// Writes the mechanisms' factors into the matrices of their parts.
-    fn write_blocks(&mut self, touches: &[Touch]) {
+    fn write_blocks(&mut self, contacts: &[Contact]) {
         for line in 0..self.lines.len() {
-            let Line { row, part, .. } = self.lines[line];
-            let Part { node, touch, .. } = self.parts[part];
+            let MechanismRow { row, part, .. } = self.lines[line];
+            let NodeBlock { node, contact, .. } = self.parts[part];
             let Node { size, lines: (first, end), w, .. } = self.nodes[node];
             let count = end - first;
-            if row == touches[touch].first {
+            if row == contacts[contact].first {
                 self.parts[part].at = self.jacobian.len();
             }
             self.jacobian.extend_from_slice(&self.b[w + (line - first) * count..][..size]);
-            debug_assert_eq!(self.jacobian.len(), self.parts[part].at + (row - touches[touch].first + 1) * size);
+            debug_assert_eq!(self.jacobian.len(), self.parts[part].at + (row - contacts[contact].first + 1) * size);
         }
     }
 
@@ -376,7 +386,7 @@ impl Coordinates {
 }
 
 /// The ends of a row in the mechanism of this first body.
-fn within(mechanisms: &Mechanisms, row: &Row, body: usize) -> [Option<(usize, Vec6)>; MAX_ROW_BODIES] {
+fn within(mechanisms: &Mechanisms, row: &JacobianRow, body: usize) -> [Option<(usize, Vec6)>; MAX_ROW_BODIES] {
     row.ends.map(|end| end.filter(|(other, _)| mechanisms.first[*other] == body))
 }
 

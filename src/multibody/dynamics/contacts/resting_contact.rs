@@ -11,9 +11,9 @@
 //! moved out at once through the same matrix. Where surfaces curve so much that a substep sinks in, a shorter one is
 //! taken.
 
-use super::contact::{Grip, Source, Touch};
-use super::contact_forces::{Held, NEAR, in_frame};
-use super::jacobian_row::{point_rows, twist_rows};
+use super::contact::{Contact, Grip, Source};
+use super::contact_forces::{ContactForce, NEAR, in_frame};
+use super::jacobian_row::{point_rows, rolling_resistance_rows};
 use super::state::Contacts;
 use crate::articulation::System;
 use crate::collision::TOUCH;
@@ -56,33 +56,33 @@ pub(super) const MOST_PUSH: f64 = 1e-3;
 
 /// What is to be done about a pass over a substep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::dynamics) enum Verdict {
+pub(in crate::dynamics) enum PassOutcome {
     /// Nothing: it stands. Were bodies moved out of each other?
-    Stands { moved: bool },
+    Accepted { moved: bool },
     /// Integrate it again, under better forces.
-    Again,
+    Repeat,
     /// Integrate a shorter one: surfaces curve too much for the forces to stand still.
-    Shorter,
+    Shorten,
     /// Integrate it anew: a clutch gives way.
-    Slips,
+    ClutchSlips,
 }
 
 impl Contacts {
     /// Notes what clutches carry by the last solve, of forces.
-    pub(in crate::dynamics) fn weigh(&mut self, system: &System) {
-        self.clutches.weigh(system);
+    pub(in crate::dynamics) fn record_clutch_loads(&mut self, system: &System) {
+        self.clutches.record_loads(system);
     }
 
     /// Does anything rest, or has a force to be taken back?
-    pub(in crate::dynamics) fn anything_rests(&self) -> bool {
-        let rests = self.resting.count() > self.sleepers.at_rest;
+    pub(in crate::dynamics) fn has_resting_contacts(&self) -> bool {
+        let rests = self.resting.count() > self.sleeping.at_rest;
         rests || !self.forces.held.is_empty() || self.clutches.slipping().next().is_some()
     }
 
     /// Longest substep in which what rests tips little and, unless contact is solved `together`, passes no feature of what it slides
     /// on, s.
     pub(in crate::dynamics) fn longest_substep(&self, together: bool) -> f64 {
-        if self.resting.at_rest.iter().all(|&pair| self.sleepers.sleep(self.surfaces.bodies_of(pair))) {
+        if self.resting.at_rest.iter().all(|&pair| self.sleeping.sleep(self.surfaces.bodies_of(pair))) {
             return f64::INFINITY;
         }
         let sliding = if together { f64::INFINITY } else { (SLIDE / self.slip).min(self.fine) };
@@ -91,38 +91,38 @@ impl Contacts {
 
     /// Lays the forces that hold what rests out for a substep of `h` seconds. While joints are open there are none: the
     /// stabiliser would answer each with its opposite, and both would grow. Impulses at the substep's end do instead.
-    pub(in crate::dynamics) fn lay_out(&mut self, h: f64, system: &System) {
-        if self.anything_rests() && system.open_rows(self.gathering_time).next().is_some() {
+    pub(in crate::dynamics) fn prepare_contact_forces(&mut self, h: f64, system: &System) {
+        if self.has_resting_contacts() && system.open_rows(self.stabilization_time).next().is_some() {
             self.forces.held.clear();
         }
-        self.forces.lay_out(h);
+        self.forces.prepare_contact_forces(h);
     }
 
     /// The same for a substep that is gone through but once: what was an impulse is no force.
-    pub(in crate::dynamics) fn lay_out_once(&mut self, h: f64, system: &System) {
+    pub(in crate::dynamics) fn prepare_contact_forces_once(&mut self, h: f64, system: &System) {
         self.forces.drop_short(h);
-        self.lay_out(h, system);
+        self.prepare_contact_forces(h, system);
     }
 
     /// At the end of a pass over a substep of `h` seconds under [`Contacts::press`]: finds the forces that would have held.
     /// Where the substep stands, velocities and places are put right, the joints' velocities too. The joints must be factored at
     /// the bodies' present state, or as near to it as a substep ends, and the clutches weighed.
-    pub(in crate::dynamics) fn settle(
+    pub(in crate::dynamics) fn finish_pass(
         &mut self,
         (h, pass, shortens): (f64, usize, bool),
         start: &[RigidBody],
         system: &mut System,
         bodies: &mut [RigidBody],
-    ) -> Verdict {
-        if !self.anything_rests() {
-            return if self.forces.give_way(&mut self.clutches, self.limits.count(), system) {
-                Verdict::Slips
+    ) -> PassOutcome {
+        if !self.has_resting_contacts() {
+            return if self.forces.slip_overloaded(&mut self.clutches, self.limits.count(), system) {
+                PassOutcome::ClutchSlips
             } else {
-                Verdict::Stands { moved: false }
+                PassOutcome::Accepted { moved: false }
             };
         }
-        let straightened = self.forces.straighten(h, start, system, bodies);
-        let lost = self.gather(h, system, bodies);
+        let torque_work = self.forces.correct_contact_torque(h, start, system, bodies);
+        let lost = self.collect_contacts(h, system, bodies);
         self.problem.assemble(system, bodies);
         self.problem.begin();
         self.problem.solve();
@@ -133,54 +133,55 @@ impl Contacts {
             let (sunk, fine) = (self.deepest_sinking(), if self.problem.has_open_joints() { FALL } else { FINE });
             let square = if sunk > SEEN { SAFELY * fine / sunk } else { f64::INFINITY };
             self.fine = (h * square.sqrt()).min(FASTEST_GROWTH * self.fine);
-            if shortens && sunk > fine && (0..self.problem.touches.len()).all(|touch| self.problem.is_good(touch)) {
-                return Verdict::Shorter;
+            if shortens && sunk > fine && (0..self.problem.contacts.len()).all(|contact| self.problem.is_good(contact))
+            {
+                return PassOutcome::Shorten;
             }
         }
         let stands = pass > PASSES || (last && !self.releases_sunken());
         if stands {
             self.slip = self.problem.largest_slip();
-            self.work.recent = self.forces.work(start, bodies) + straightened + self.problem.work();
+            self.work.recent = self.forces.work(start, bodies) + torque_work + self.problem.work();
             self.problem.apply_closing(system, bodies);
-            self.clutches.weigh_more(h, system);
+            self.clutches.add_loads(h, system);
             // Forces of a pass that nobody goes through again are not good enough for a clutch to slip by them.
-            if pass != LAST_PASS && self.forces.give_way(&mut self.clutches, self.limits.count(), system) {
-                return Verdict::Slips;
+            if pass != LAST_PASS && self.forces.slip_overloaded(&mut self.clutches, self.limits.count(), system) {
+                return PassOutcome::ClutchSlips;
             }
         }
         if stands {
-            self.resting.note_depths(&self.problem.touches, &self.surfaces, &self.sleepers);
+            self.resting.record_depths(&self.problem.contacts, &self.surfaces, &self.sleeping);
         }
         self.forces.remember(&self.problem, (h, stands), start, bodies);
         if !stands {
-            return Verdict::Again;
+            return PassOutcome::Repeat;
         }
-        let moved = self.problem.touches.iter().any(|touch| touch.gap < -LAYER);
+        let moved = self.problem.contacts.iter().any(|contact| contact.gap < -LAYER);
         if moved {
             self.problem.push_out(-0.5 * LAYER, MOST_PUSH, system, bodies);
         }
-        Verdict::Stands { moved }
+        PassOutcome::Accepted { moved }
     }
 
     /// How deep what rests has sunk in within the substep, m.
     fn deepest_sinking(&self) -> f64 {
-        let sunk = |touch: &Touch| match touch.source {
-            Source::Pair(pair) => self.resting.depth[pair] - touch.gap,
+        let sunk = |contact: &Contact| match contact.source {
+            Source::Pair(pair) => self.resting.depth[pair] - contact.gap,
             Source::Bound(_) => 0.0,
         };
-        self.problem.touches.iter().map(sunk).fold(0.0, f64::max)
+        self.problem.contacts.iter().map(sunk).fold(0.0, f64::max)
     }
 
     /// What was taken to rest and has sunk in within this substep met where nobody looked: it is apart, so that its
     /// hit is found. Answers whether there was such a pair.
     fn releases_sunken(&mut self) -> bool {
         let mut any = false;
-        for index in 0..self.problem.touches.len() {
-            let touch = &mut self.problem.touches[index];
-            let Source::Pair(pair) = touch.source else { continue };
+        for index in 0..self.problem.contacts.len() {
+            let contact = &mut self.problem.contacts[index];
+            let Source::Pair(pair) = contact.source else { continue };
             // Once a step: a pair hit in this one has been looked at.
-            if touch.gap < self.resting.depth[pair] - SUNK && self.resting.last_hit[pair] < self.clock {
-                touch.impulse = DVec3::ZERO;
+            if contact.gap < self.resting.depth[pair] - SUNK && self.resting.last_hit[pair] < self.clock {
+                contact.impulse = DVec3::ZERO;
                 any = true;
                 self.resting.set(pair, false);
             }
@@ -190,10 +191,10 @@ impl Contacts {
 
     /// Takes out what approach hits have left to what rests, without bounce and without memory. The joints must be
     /// factored at the bodies' present state.
-    pub(super) fn steady(&mut self, h: f64, system: &mut System, bodies: &mut [RigidBody]) {
-        self.gather(h, system, bodies);
-        for touch in &mut self.problem.touches {
-            (touch.before, touch.impulse, touch.begin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+    pub(super) fn remove_residual_approach(&mut self, h: f64, system: &mut System, bodies: &mut [RigidBody]) {
+        self.collect_contacts(h, system, bodies);
+        for contact in &mut self.problem.contacts {
+            (contact.before, contact.impulse, contact.begin) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
         }
         self.problem.assemble(system, bodies);
         self.problem.solve();
@@ -204,12 +205,12 @@ impl Contacts {
 
     /// Collects all touches of what rests into the problem, each with the impulse that held it; releases what has
     /// opened. Answers whether a force that has acted belongs to no touch any more.
-    pub(super) fn gather(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
+    pub(super) fn collect_contacts(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
         self.problem.clear();
         let mut at_rest = 0;
         while at_rest < self.resting.at_rest.len() {
             let pair = self.resting.at_rest[at_rest];
-            if self.sleepers.sleep(self.surfaces.bodies_of(pair)) {
+            if self.sleeping.sleep(self.surfaces.bodies_of(pair)) {
                 at_rest += 1;
                 continue;
             }
@@ -233,8 +234,8 @@ impl Contacts {
                 }
             }
         }
-        for index in 0..self.problem.touches.len() {
-            if let Source::Pair(pair) = self.problem.touches[index].source
+        for index in 0..self.problem.contacts.len() {
+            if let Source::Pair(pair) = self.problem.contacts[index].source
                 && !self.surfaces.pairs[pair].resistance.is_none()
             {
                 let bodies = self.surfaces.bodies_of(pair);
@@ -242,11 +243,11 @@ impl Contacts {
             }
         }
         self.push_clutches(h, system);
-        for touch in self.problem.touches.iter_mut().filter(|touch| touch.pushes()) {
+        for contact in self.problem.contacts.iter_mut().filter(|contact| contact.pushes()) {
             // What has sunk rises gently, and what is higher in the layer comes down; a wider gap may close within the substep.
-            let highest = if matches!(touch.source, Source::Bound(_)) { HIGHEST_AT_BOUND } else { HIGHEST };
-            let sunk = (touch.gap.clamp(0.0, highest) - touch.gap).clamp(-0.5 * LAYER, LAYER);
-            touch.least = sunk / RISE - (touch.gap - LAYER).max(0.0) / h;
+            let highest = if matches!(contact.source, Source::Bound(_)) { HIGHEST_AT_BOUND } else { HIGHEST };
+            let sunk = (contact.gap.clamp(0.0, highest) - contact.gap).clamp(-0.5 * LAYER, LAYER);
+            contact.least = sunk / RISE - (contact.gap - LAYER).max(0.0) / h;
         }
         self.warm_start(h, system, bodies)
     }
@@ -255,24 +256,24 @@ impl Contacts {
     /// taken back where it acted, and the rounds only begin from it; the answer is whether there are such.
     fn warm_start(&mut self, h: f64, system: &System, bodies: &[RigidBody]) -> bool {
         let mut lost = false;
-        let present = self.problem.touches.len();
+        let present = self.problem.contacts.len();
         for index in 0..self.forces.held.len() {
             let held = self.forces.held[index];
             let near = NEAR + 2.0 * h * held.ends.iter().flatten().map(|lever| lever.speed(bodies)).sum::<f64>();
             let mut best = (None, f64::INFINITY);
-            for touch in &mut self.problem.touches[..present] {
-                let far = touch.point.distance(held.point);
-                if held.belongs_to(touch) && far <= best.1 {
-                    best = (Some(touch), far);
+            for contact in &mut self.problem.contacts[..present] {
+                let far = contact.point.distance(held.point);
+                if held.belongs_to(contact) && far <= best.1 {
+                    best = (Some(contact), far);
                 }
             }
             let follows = best.1 <= near;
-            if let Some(touch) = best.0 {
-                let impulse = h * in_frame(touch, &held);
-                touch.begin += impulse;
+            if let Some(contact) = best.0 {
+                let impulse = h * in_frame(contact, &held);
+                contact.begin += impulse;
                 if follows {
-                    touch.before += impulse;
-                    touch.follows = Some(held.point);
+                    contact.before += impulse;
+                    contact.follows = Some(held.point);
                 }
             }
             if !follows {
@@ -280,18 +281,18 @@ impl Contacts {
                 self.take_back(&held, h, system, bodies);
             }
         }
-        for touch in &mut self.problem.touches {
-            touch.impulse = touch.before;
+        for contact in &mut self.problem.contacts {
+            contact.impulse = contact.before;
         }
         lost
     }
 
     /// Adds a touch that may approach at any speed, so that the rounds take its impulse away.
-    fn take_back(&mut self, held: &Held, h: f64, system: &System, bodies: &[RigidBody]) {
+    fn take_back(&mut self, held: &ContactForce, h: f64, system: &System, bodies: &[RigidBody]) {
         let size = held.force.length();
         let row = match held.source {
             Source::Pair(pair) if held.couple => {
-                twist_rows(held.acting(self.forces.span) / size, self.surfaces.bodies_of(pair))[0]
+                rolling_resistance_rows(held.acting(self.forces.span) / size, self.surfaces.bodies_of(pair))[0]
             }
             Source::Pair(pair) => {
                 point_rows(held.point, held.acting(self.forces.span) / size, self.surfaces.bodies_of(pair), bodies)[0]
@@ -301,10 +302,10 @@ impl Contacts {
                 None => self.limits.row(bound, bodies).1,
             },
         };
-        let mut touch = Touch::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);
-        touch.before.x = h * size;
-        touch.least = -FREE;
-        self.problem.push(touch, &[row]);
+        let mut contact = Contact::new(held.source, held.point, DVec3::ZERO, f64::INFINITY, 0.0);
+        contact.before.x = h * size;
+        contact.least = -FREE;
+        self.problem.push(contact, &[row]);
     }
 
     /// Adds what slips to the problem of a substep of `h` seconds.
@@ -312,20 +313,20 @@ impl Contacts {
         for (index, clutch) in self.clutches.slipping() {
             // Nothing is moved out of it: it has no gap to speak of.
             let source = Source::Bound(self.limits.count() + index);
-            let mut touch = Touch::new(source, DVec3::ZERO, DVec3::ZERO, f64::INFINITY, 0.0);
-            touch.grip = Some(Grip { clutch: index, most: clutch.torque * h, slips: false });
-            self.problem.push(touch, &[self.clutches.row(index, 1.0, system)]);
+            let mut contact = Contact::new(source, DVec3::ZERO, DVec3::ZERO, f64::INFINITY, 0.0);
+            contact.grip = Some(Grip { clutch: index, most: clutch.torque * h, slips: false });
+            self.problem.push(contact, &[self.clutches.row(index, 1.0, system)]);
         }
     }
 
     /// Lets hold what has come to rest in a substep of `h` seconds that stands. Did anything? Then rows act that did not.
-    pub(in crate::dynamics) fn take_hold(&mut self, h: f64, system: &mut System, bodies: &[RigidBody]) -> bool {
+    pub(in crate::dynamics) fn stick(&mut self, h: f64, system: &mut System, bodies: &[RigidBody]) -> bool {
         let mut any = false;
-        for touch in &self.problem.touches {
-            let Some(grip) = touch.grip.filter(|grip| !grip.slips) else { continue };
-            let constraint = self.clutches.take_hold(grip.clutch, touch.impulse.x / h);
+        for contact in &self.problem.contacts {
+            let Some(grip) = contact.grip.filter(|grip| !grip.slips) else { continue };
+            let constraint = self.clutches.stick(grip.clutch, contact.impulse.x / h);
             system.take_hold(constraint, bodies);
-            self.forces.held.retain(|held| held.source != touch.source);
+            self.forces.held.retain(|held| held.source != contact.source);
             any = true;
         }
         any

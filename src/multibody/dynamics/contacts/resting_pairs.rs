@@ -1,13 +1,13 @@
 //! What rests, and how long ago it was hit.
 
-use super::contact::{Source, Touch};
-use super::sleeping_bodies::Sleepers;
+use super::contact::{Contact, Source};
+use super::sleeping_bodies::SleepingBodies;
 use super::surfaces::Surfaces;
 use crate::dynamics::limits::Limits;
 
 /// What rests among the pairs of a figure, and how many bounds do.
 #[derive(Clone, Debug)]
-pub(super) struct Resting {
+pub(super) struct RestingSet {
     /// Whether each pair rests, the pairs that do, ascending, and how many bounds do.
     pub pairs: Vec<bool>,
     pub at_rest: Vec<usize>,
@@ -18,7 +18,7 @@ pub(super) struct Resting {
     pub depth: Vec<f64>,
 }
 
-impl Resting {
+impl RestingSet {
     /// Nothing rests yet among so many pairs.
     pub fn new(pairs: usize) -> Self {
         Self {
@@ -73,15 +73,15 @@ impl Resting {
     }
 
     /// Notes how deep these touches of what rests and is awake have sunk in by the end of a substep.
-    pub fn note_depths(&mut self, touches: &[Touch], surfaces: &Surfaces, sleepers: &Sleepers) {
+    pub fn record_depths(&mut self, contacts: &[Contact], surfaces: &Surfaces, sleeping: &SleepingBodies) {
         for &pair in &self.at_rest {
-            if !sleepers.sleep(surfaces.bodies_of(pair)) {
+            if !sleeping.sleep(surfaces.bodies_of(pair)) {
                 self.depth[pair] = 0.0;
             }
         }
-        for touch in touches {
-            if let Source::Pair(pair) = touch.source {
-                self.depth[pair] = self.depth[pair].min(touch.gap);
+        for contact in contacts {
+            if let Source::Pair(pair) = contact.source {
+                self.depth[pair] = self.depth[pair].min(contact.gap);
             }
         }
     }

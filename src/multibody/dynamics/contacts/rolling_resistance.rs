@@ -16,17 +16,17 @@
 //!
 //! In the contact problem a couple is a touch of its own, slave to the normal impulse of its point.
 
-use super::contact::{RollingResistance, Touch, Twist};
-use super::contact_problem::Problem;
-use super::jacobian_row::twist_rows;
+use super::contact::{Contact, RollingResistance, Twist};
+use super::contact_problem::ContactProblem;
+use super::jacobian_row::rolling_resistance_rows;
 
-impl Problem {
+impl ContactProblem {
     /// Adds the couple of the touch at `of`, a point of a pair of these bodies.
     pub(super) fn push_twist(&mut self, of: usize, bodies: [Option<usize>; 2], resistance: RollingResistance) {
-        let Touch { source, point, normal, .. } = self.touches[of];
+        let Contact { source, point, normal, .. } = self.contacts[of];
         // Nothing is moved out of it: it has no gap to speak of.
-        let mut touch = Touch::new(source, point, normal, f64::INFINITY, 0.0);
-        touch.twist = Some(Twist { of, resistance });
-        self.push(touch, &twist_rows(normal, bodies));
+        let mut contact = Contact::new(source, point, normal, f64::INFINITY, 0.0);
+        contact.twist = Some(Twist { of, resistance });
+        self.push(contact, &rolling_resistance_rows(normal, bodies));
     }
 }

@@ -2,14 +2,14 @@
 
 /// Bodies that sleep, and how much of what rests is among them.
 #[derive(Clone, Debug)]
-pub(super) struct Sleepers {
+pub(super) struct SleepingBodies {
     /// Whether each body sleeps.
     pub bodies: Vec<bool>,
     /// How many of the pairs and bounds at rest are between such.
     pub at_rest: usize,
 }
 
-impl Sleepers {
+impl SleepingBodies {
     /// Of so many bodies nobody sleeps.
     pub fn new(bodies: usize) -> Self {
         Self { bodies: vec![false; bodies], at_rest: 0 }

@@ -1,16 +1,16 @@
 //! All that can touch in a figure, and its state.
 
-use super::contact::{Source, Touch};
-use super::contact_forces::HeldForces;
-use super::contact_problem::Problem;
+use super::contact::{Contact, Source};
+use super::contact_forces::ContactForces;
+use super::contact_problem::ContactProblem;
 use super::impact::SurfacePair;
 use super::impact_solver::REST_SPEED;
-use super::nearby_pairs::Near;
+use super::nearby_pairs::NearbyPairs;
 use super::reduced_coordinates::Mechanisms;
-use super::resting_pairs::Resting;
-use super::sleeping_bodies::Sleepers;
+use super::resting_pairs::RestingSet;
+use super::sleeping_bodies::SleepingBodies;
 use super::surfaces::Surfaces;
-use super::time_stepping::Encounter;
+use super::time_stepping::PendingImpact;
 use crate::articulation::{Constraint, Limit};
 use crate::collision::{Collider, ManifoldPoint, Pair, TOUCH};
 use crate::dynamics::clutches::Clutches;
@@ -23,24 +23,24 @@ use soffio_math::spatial::Vec6;
 const MOST_IMPACTS: usize = 64;
 
 /// Room for what meets in one substep; more makes the list grow.
-const ENCOUNTERS: usize = 64;
+const PENDING_IMPACTS_CAPACITY: usize = 64;
 
 /// All that can touch in a figure, and its state.
 #[derive(Clone, Debug)]
 pub struct Contacts {
     pub(super) surfaces: Surfaces,
-    pub(super) near: Near,
-    pub(super) resting: Resting,
+    pub(super) near: NearbyPairs,
+    pub(super) resting: RestingSet,
     pub(super) limits: Limits,
     pub(super) clutches: Clutches,
-    pub(super) problem: Problem,
-    pub(super) forces: HeldForces,
-    pub(super) sleepers: Sleepers,
+    pub(super) problem: ContactProblem,
+    pub(super) forces: ContactForces,
+    pub(super) sleeping: SleepingBodies,
     pub(super) work: Work,
     /// What met on the way of the last substep that was solved together.
-    pub(super) encounters: Vec<Encounter>,
+    pub(super) pending_impacts: Vec<PendingImpact>,
     /// 1/ω₀ of the figure's stabiliser, s.
-    pub(super) gathering_time: f64,
+    pub(super) stabilization_time: f64,
     /// When the present step began, s.
     pub(super) clock: f64,
     /// Slip of the fastest touch that rests, m/s.
@@ -67,27 +67,27 @@ impl Contacts {
         colliders: &[Collider],
         pairs: Vec<SurfacePair>,
         (limits, constraints): (&[Limit], &[Constraint]),
-        (bodies, driven): (&[RigidBody], &[bool]),
+        (bodies, is_kinematic): (&[RigidBody], &[bool]),
         joints: (usize, f64),
     ) -> Self {
         let limits = Limits::new(limits, bodies);
         let clutches = Clutches::new(constraints);
         let turning = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
-        let touches = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count() + clutches.count();
-        let problem = Problem::new(touches, Mechanisms::new(constraints, driven), joints);
+        let contacts = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count() + clutches.count();
+        let problem = ContactProblem::new(contacts, Mechanisms::new(constraints, is_kinematic), joints);
         let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
-            near: Near::new(colliders, &bare, bodies.len()),
-            resting: Resting::new(pairs.len()),
+            near: NearbyPairs::new(colliders, &bare, bodies.len()),
+            resting: RestingSet::new(pairs.len()),
             surfaces: Surfaces::new(colliders, pairs, bodies),
-            forces: HeldForces::new(touches, problem.touches.capacity(), bodies.len()),
-            sleepers: Sleepers::new(bodies.len()),
+            forces: ContactForces::new(contacts, problem.contacts.capacity(), bodies.len()),
+            sleeping: SleepingBodies::new(bodies.len()),
             limits,
             clutches,
             problem,
             work: Work::default(),
-            encounters: Vec::with_capacity(ENCOUNTERS),
-            gathering_time: joints.1,
+            pending_impacts: Vec::with_capacity(PENDING_IMPACTS_CAPACITY),
+            stabilization_time: joints.1,
             clock: 0.0,
             slip: 0.0,
             fine: f64::INFINITY,
@@ -103,8 +103,8 @@ impl Contacts {
     }
 
     /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
-    pub(in crate::dynamics) fn press(&self, external: &mut [Vec6]) {
-        self.forces.press(external);
+    pub(in crate::dynamics) fn apply_contact_forces(&self, external: &mut [Vec6]) {
+        self.forces.apply_contact_forces(external);
     }
 
     /// Keeps the forces that the substep begins with, for the case that it is gone through again.
@@ -123,9 +123,9 @@ impl Contacts {
         self.work.recent = 0.0;
     }
 
-    /// Operations since this was last asked (`dynamics/effort.rs`).
-    pub(in crate::dynamics) fn take_effort(&mut self) -> u64 {
-        std::mem::take(&mut self.problem.effort)
+    /// Operations since this was last asked (`dynamics/operations.rs`).
+    pub(in crate::dynamics) fn take_operations(&mut self) -> u64 {
+        std::mem::take(&mut self.problem.operations)
     }
 
     /// How many pairs of colliders have been measured in the present step: those whose boxes overlapped.
@@ -149,8 +149,8 @@ impl Contacts {
     }
 
     /// Finds what touches where the figure begins and does not hit: it rests from the first substep on.
-    pub(in crate::dynamics) fn find_rest(&mut self, bodies: &[RigidBody]) {
-        self.near.find(bodies, bodies, &self.sleepers.bodies);
+    pub(in crate::dynamics) fn find_resting_contacts(&mut self, bodies: &[RigidBody]) {
+        self.near.find(bodies, bodies, &self.sleeping.bodies);
         for near in 0..self.near.list.len() {
             let pair = self.near.list[near];
             let manifold = self.surfaces.manifold(pair, bodies);
@@ -166,7 +166,7 @@ impl Contacts {
     pub(in crate::dynamics) fn forget(&mut self, bodies: &[RigidBody]) {
         self.resting.forget();
         self.forces.forget();
-        self.sleepers.at_rest = 0;
+        self.sleeping.at_rest = 0;
         self.fine = f64::INFINITY;
         self.limits.forget(bodies);
     }
@@ -174,7 +174,7 @@ impl Contacts {
     /// Adds a bound of a limit to the problem, its value `gap` away.
     pub(super) fn push_bound(&mut self, bound: usize, bodies: &[RigidBody]) {
         let (gap, row, point) = self.limits.row(bound, bodies);
-        let touch = Touch::new(Source::Bound(bound), point, DVec3::ZERO, gap, 0.0);
-        self.problem.push(touch, &[row]);
+        let contact = Contact::new(Source::Bound(bound), point, DVec3::ZERO, gap, 0.0);
+        self.problem.push(contact, &[row]);
     }
 }

@@ -1,7 +1,7 @@
 //! The surfaces of a figure, and how its pairs lie to each other.
 
-use super::contact::{Source, Touch};
-use super::contact_problem::Problem;
+use super::contact::{Contact, Source};
+use super::contact_problem::ContactProblem;
 use super::impact::SurfacePair;
 use super::jacobian_row::point_rows;
 use crate::collision::{Collider, Corners, Manifold, Pair, Sweep, TOUCH};
@@ -55,14 +55,14 @@ impl Surfaces {
     /// Adds a point of a pair to a problem.
     pub fn push_point(
         &self,
-        problem: &mut Problem,
+        problem: &mut ContactProblem,
         pair: usize,
         (point, normal, gap): (DVec3, DVec3, f64),
         bodies: &[RigidBody],
     ) {
         let [a, b] = self.bodies_of(pair);
-        let touch = Touch::new(Source::Pair(pair), point, normal, gap, self.pairs[pair].friction);
-        problem.push(touch, &point_rows(point, normal, [a, b], bodies));
+        let contact = Contact::new(Source::Pair(pair), point, normal, gap, self.pairs[pair].friction);
+        problem.push(contact, &point_rows(point, normal, [a, b], bodies));
     }
 
     /// Relative velocity of a pair's bodies at a point, first minus second, m/s.

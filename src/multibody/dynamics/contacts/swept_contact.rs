@@ -6,7 +6,7 @@
 
 use super::contact::RollingResistance;
 use super::impact::SurfacePair;
-use super::jacobian_row::{MAX_ROW_BODIES, Row, point_rows, twist_rows};
+use super::jacobian_row::{JacobianRow, MAX_ROW_BODIES, point_rows, rolling_resistance_rows};
 use super::state::Contacts;
 use crate::collision::{Collider, Pair, Shape, TOUCH};
 use soffio_geometry::bodies::RigidBody;
@@ -49,13 +49,13 @@ pub struct SweptContact {
 impl SweptContact {
     /// J v: the rate at which they part, m/s (rad/s).
     pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
-        Row { ends: self.ends }.rate(bodies)
+        JacobianRow { ends: self.ends }.rate(bodies)
     }
 }
 
 /// Rows of the couple between the bodies of what met: about the normal, then about two tangents.
 pub fn rolling_rows(met: &SweptContact) -> [[Option<(usize, Vec6)>; MAX_ROW_BODIES]; 3] {
-    twist_rows(met.normal, met.bodies).map(|row| row.ends)
+    rolling_resistance_rows(met.normal, met.bodies).map(|row| row.ends)
 }
 
 impl Contacts {
@@ -69,7 +69,7 @@ impl Contacts {
     pub fn find_swept_contacts(&mut self, before: &[RigidBody], after: &[RigidBody], out: &mut Vec<SweptContact>) {
         out.clear();
         if !self.surfaces.pairs.is_empty() {
-            self.near.find(before, after, &self.sleepers.bodies);
+            self.near.find(before, after, &self.sleeping.bodies);
             for near in 0..self.near.list.len() {
                 self.look_at_pair(self.near.list[near], after, out);
             }

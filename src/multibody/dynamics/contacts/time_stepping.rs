@@ -1,6 +1,6 @@
 //! A substep in which impacts and resting contact are solved together, at its end: Moreau's time stepping.
 //!
-//! Where a step has no time left to follow impacts one by one (`dynamics/effort.rs`), the bodies go through what is left of
+//! Where a step has no time left to follow impacts one by one (`dynamics/operations.rs`), the bodies go through what is left of
 //! it as if nothing were in their way. At its end one contact problem has the touches of what rests and of what met on the way (J. J.
 //! Moreau, "Unilateral contact and dry friction in finite freedom dynamics", 1988), with
 //!
@@ -35,11 +35,11 @@ const FARTHEST: f64 = 0.05;
 
 /// What met on the way, and its touches in the problem.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Encounter {
+pub(super) struct PendingImpact {
     source: Source,
     /// Share of the substep.
     s: f64,
-    touches: (usize, usize),
+    contacts: (usize, usize),
     /// Approach, m/s, and how it ends.
     speed: f64,
     e: f64,
@@ -48,11 +48,11 @@ pub(super) struct Encounter {
 
 impl Contacts {
     /// A body that sleeps and is met on the way between two states.
-    pub(in crate::dynamics) fn met_asleep(&mut self, before: &[RigidBody], after: &[RigidBody]) -> Option<usize> {
-        self.near.find(before, after, &self.sleepers.bodies);
+    pub(in crate::dynamics) fn sleeper_hit(&mut self, before: &[RigidBody], after: &[RigidBody]) -> Option<usize> {
+        self.near.find(before, after, &self.sleeping.bodies);
         for near in 0..self.near.list.len() {
             let pair = self.near.list[near];
-            let sleeper = self.sleepers.one_of(self.surfaces.bodies_of(pair));
+            let sleeper = self.sleeping.one_of(self.surfaces.bodies_of(pair));
             if sleeper.is_some() && self.meets(pair, before, after).is_some() {
                 return sleeper;
             }
@@ -62,7 +62,7 @@ impl Contacts {
 
     /// Ends a substep of `h` seconds from the time `begun` of the step, under [`Contacts::press`]: puts velocities and places right for
     /// all that rests or met on the way, and appends the impacts. The joints must be factored at the bodies' present state.
-    pub(in crate::dynamics) fn settle_together(
+    pub(in crate::dynamics) fn finish_time_step(
         &mut self,
         (begun, h): (f64, f64),
         start: &[RigidBody],
@@ -70,85 +70,85 @@ impl Contacts {
         bodies: &mut [RigidBody],
         impacts: &mut Vec<Impact>,
     ) {
-        let straightened = self.forces.straighten(h, start, system, bodies);
-        self.gather(h, system, bodies);
-        let resting = self.problem.touches.len();
-        self.find_encounters(start, bodies);
+        let torque_work = self.forces.correct_contact_torque(h, start, system, bodies);
+        self.collect_contacts(h, system, bodies);
+        let resting = self.problem.contacts.len();
+        self.find_pending_impacts(start, bodies);
         self.problem.assemble(system, bodies);
-        let mut met = std::mem::take(&mut self.encounters);
-        for encounter in &mut met {
-            let (first, end) = encounter.touches;
-            for touch in first..end {
-                self.problem.touches[touch].least = self.problem.approach(touch, encounter.s, start).max(0.0);
+        let mut met = std::mem::take(&mut self.pending_impacts);
+        for impact in &mut met {
+            let (first, end) = impact.contacts;
+            for contact in first..end {
+                self.problem.contacts[contact].least = self.problem.approach(contact, impact.s, start).max(0.0);
             }
-            encounter.speed =
-                self.problem.touches[first..end].iter().fold(0.0, |most: f64, touch| most.max(touch.least));
-            let at = begun + encounter.s * h;
-            (encounter.e, encounter.rests) = self.judge(encounter.source, at, encounter.speed);
-            self.problem.touches[first..end].iter_mut().for_each(|touch| touch.least *= encounter.e);
+            impact.speed =
+                self.problem.contacts[first..end].iter().fold(0.0, |most: f64, contact| most.max(contact.least));
+            let at = begun + impact.s * h;
+            (impact.e, impact.rests) = self.classify_impact(impact.source, at, impact.speed);
+            self.problem.contacts[first..end].iter_mut().for_each(|contact| contact.least *= impact.e);
         }
         self.problem.begin();
         self.problem.solve();
         if !met.is_empty() && self.problem.work() > 0.0 {
-            for touch in &mut self.problem.touches[resting..] {
-                touch.least = 0.0;
+            for contact in &mut self.problem.contacts[resting..] {
+                contact.least = 0.0;
             }
-            met.iter_mut().for_each(|encounter| encounter.e = 0.0);
+            met.iter_mut().for_each(|impact| impact.e = 0.0);
             self.problem.begin();
             self.problem.solve();
         }
         self.slip = self.problem.largest_slip();
-        self.work.recent = self.forces.work(start, bodies) + straightened + self.problem.work();
+        self.work.recent = self.forces.work(start, bodies) + torque_work + self.problem.work();
         self.problem.apply_closing(system, bodies);
-        for encounter in &met {
-            let own = encounter.touches;
-            let mut impact =
-                self.tell(encounter.source, begun + encounter.s * h, own, encounter.speed, encounter.rests);
-            let sum = self.problem.touches[own.0..own.1].iter().fold(DVec3::ZERO, |sum, touch| sum + touch.impulse);
+        for impact in &met {
+            let own = impact.contacts;
+            let mut impact = self.impact_event(impact.source, begun + impact.s * h, own, impact.speed, impact.rests);
+            let sum =
+                self.problem.contacts[own.0..own.1].iter().fold(DVec3::ZERO, |sum, contact| sum + contact.impulse);
             impact.impulse = sum.length();
             impacts.push(impact);
         }
-        self.resting.note_depths(&self.problem.touches[..resting], &self.surfaces, &self.sleepers);
-        for encounter in met.iter().filter(|encounter| !encounter.rests) {
-            let since = encounter.e * encounter.speed * (1.0 - encounter.s) * h;
+        self.resting.record_depths(&self.problem.contacts[..resting], &self.surfaces, &self.sleeping);
+        for impact in met.iter().filter(|impact| !impact.rests) {
+            let since = impact.e * impact.speed * (1.0 - impact.s) * h;
             // What is to open so far lies so much deeper.
-            self.problem.touches[encounter.touches.0..encounter.touches.1]
+            self.problem.contacts[impact.contacts.0..impact.contacts.1]
                 .iter_mut()
-                .for_each(|touch| touch.gap -= since);
+                .for_each(|contact| contact.gap -= since);
         }
-        self.problem.hide_struck(met.iter().filter(|encounter| !encounter.rests).map(|encounter| encounter.touches.0));
+        self.problem.discard_impact_impulses(met.iter().filter(|impact| !impact.rests).map(|impact| impact.contacts.0));
         self.forces.remember(&self.problem, (h, true), start, bodies);
-        if self.problem.touches.iter().any(|touch| touch.gap < -LAYER) {
+        if self.problem.contacts.iter().any(|contact| contact.gap < -LAYER) {
             self.problem.push_out(-0.5 * LAYER, FARTHEST, system, bodies);
         }
-        self.encounters = met;
+        self.pending_impacts = met;
     }
 
     /// Finds what met on the way and does not rest, with its touches at the end.
-    fn find_encounters(&mut self, before: &[RigidBody], after: &[RigidBody]) {
-        self.encounters.clear();
-        self.near.find(before, after, &self.sleepers.bodies);
+    fn find_pending_impacts(&mut self, before: &[RigidBody], after: &[RigidBody]) {
+        self.pending_impacts.clear();
+        self.near.find(before, after, &self.sleeping.bodies);
         for near in 0..self.near.list.len() {
             let pair = self.near.list[near];
             let Some(toi) = self.meets(pair, before, after) else { continue };
-            let first = self.problem.touches.len();
+            let first = self.problem.contacts.len();
             self.push_met(pair, &toi, after);
-            let touches = (first, self.problem.touches.len());
+            let contacts = (first, self.problem.contacts.len());
             let source = Source::Pair(pair);
-            self.encounters.push(Encounter { source, s: toi.s, touches, speed: 0.0, e: 0.0, rests: false });
+            self.pending_impacts.push(PendingImpact { source, s: toi.s, contacts, speed: 0.0, e: 0.0, rests: false });
         }
         for bound in 0..self.limits.count() {
             if self.limits.resting(bound) || self.limits.sleeps(bound) {
                 continue;
             }
             if let Some(s) = self.limits.crossing(bound, before, after, &self.near.sweeps) {
-                let first = self.problem.touches.len();
+                let first = self.problem.contacts.len();
                 self.push_bound(bound, after);
                 let source = Source::Bound(bound);
-                self.encounters.push(Encounter {
+                self.pending_impacts.push(PendingImpact {
                     source,
                     s,
-                    touches: (first, first + 1),
+                    contacts: (first, first + 1),
                     speed: 0.0,
                     e: 0.0,
                     rests: false,

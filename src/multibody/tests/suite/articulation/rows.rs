@@ -192,11 +192,11 @@ fn driven_bodies_have_the_velocities_and_accelerations_they_say() {
             let template = body(&mut random);
             let at = |s: f64| {
                 let mut body = template;
-                motion.at(t + s).carry(&mut body);
+                motion.at(t + s).place(&mut body);
                 body
             };
             let mut now = template;
-            let (acceleration, turn) = motion.at(t).carry(&mut now);
+            let (acceleration, turn) = motion.at(t).place(&mut now);
             // Three points of the body say all of its motion.
             for arm in [vector(&mut random), vector(&mut random), vector(&mut random)] {
                 let r = now.arm(arm);
