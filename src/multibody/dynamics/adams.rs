@@ -1,120 +1,135 @@
-//! Adams' method: what the last steps have learnt spares half of the next one's solves.
+//! Adams–Bashforth–Moulton predictor–corrector: reuses past accelerations, so that a smooth step needs two evaluations.
 //!
-//! Where accelerations have gone smoothly for three steps, their backward differences say how they go on (Hairer, Nørsett,
-//! Wanner, *Solving Ordinary Differential Equations I*, III.1 and III.10). With a = a(y_n), and ∇, ∇², ∇³ its differences:
+//! Where accelerations were smooth for three steps, their backward differences extrapolate them (Hairer, Nørsett, Wanner,
+//! *Solving Ordinary Differential Equations I*, III.1 and III.10). With a = a(y_n), and ∇, ∇², ∇³ its differences:
 //!
 //! ```text
 //! predict    v* = v + h (a + ∇/2 + 5∇²/12 + 3∇³/8)            x* = x + h v + h² (a/2 + ∇/6 + ∇²/8 + 19∇³/180)
 //! evaluate   a* = a(y*),   ∇* = a* − a,   ∇*² = ∇* − ∇, …
 //! correct    v' = v + h (a* − ∇*/2 − ∇*²/12 − ∇*³/24)         x' = x + h (v + v')/2 − h² ∇*/12
-//! error      e  = 19/720 h ∇*⁴,   as a share of the velocities like that of `integrate.rs`
+//! error      e  = 19/720 h ∇*⁴,   relative to the velocities as in `integrate.rs`
 //! ```
 //!
-//! Then the joints are closed, and the next step finds the rate there, under its own forces: two evaluations where Runge–Kutta
-//! takes four. Of fourth order as well; a pendulum of phase φ = ω h a step errs by φ⁵/80 in phase and by φ⁶/98 in amplitude (Runge–Kutta: φ⁵/120,
-//! φ⁶/144). A rotation's vector σ, q' = exp(σ) q, is found like x from ω and α, and because turns do not commute less h²/12 ω×ω',
-//! which is all that Magnus' series has to fourth order.
+//! Then the joints are closed, and the next step evaluates the rate there under its own forces. Runge–Kutta needs four
+//! evaluations. The order is four as well. A pendulum of phase φ = ω h a step errs by φ⁵/80 in phase and by φ⁶/98 in amplitude
+//! (Runge–Kutta: φ⁵/120, φ⁶/144). A rotation vector σ, q' = exp(σ) q, is found like x from ω and α, less h²/12 ω×ω' because
+//! rotations do not commute. That is the whole Magnus series to fourth order.
 //!
-//! Wind, resting contacts and friction push evenly for a step and change from one to the next. So a difference is taken within
-//! its step, under the forces of that step, from its beginning to where it was predicted to end, ∇*: what a changed force does at
-//! once is in `a`, and no difference knows of it. Whatever changes the joints, a hit, and a step of another length end the smooth
-//! run; Runge–Kutta begins the next. What else may happen to bodies the error tells.
+//! Wind, resting contacts and friction are constant within a step and jump between steps. So a difference is taken within its step,
+//! under the forces of that step, from its beginning to its predicted end, ∇*. A jump of the forces is in `a` and in no difference.
+//! A change of the joints, an impact, or a step of another length ends the history, and Runge–Kutta starts a new one. The error
+//! estimate finds all other disturbances.
 
 use super::equations::Equations;
 use super::lane_kernels::{LaneKernel, accelerations, put, quad, run_kernel};
-use super::substep_state::{ENOUGH, KEPT, SLOWEST, SubstepState, less, norm};
+use super::substep_state::{DIFFERENCES, ORDER, SLOWEST, SubstepState, difference, norm};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::State;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::lanes::{Lanes, Quat, Real, V3};
 
-/// Largest error of a step that this method may do, as a share of the velocities: beyond, Runge–Kutta with its own bounds.
-const SMOOTH: f64 = 1e-7;
-/// ∇⁴'s share in the corrector's error.
+/// Largest relative error of a step; beyond it Runge–Kutta repeats the step.
+const TOLERANCE: f64 = 1e-7;
+/// Coefficient of ∇⁴ in the corrector's error.
 const ERROR: f64 = 19.0 / 720.0;
 
-/// How long the run of steps that differ by little has lasted.
+/// Whether motion was smooth enough for a multistep method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Smoothness {
+    Smooth,
+    NotSmooth,
+}
+
+/// The past steps that a multistep method extrapolates: a ring of differences, which each [`SubstepState`] holds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct MultistepHistory {
     /// Length of its steps, s.
     h: f64,
-    /// Differences that belong to it, and where the present step's goes.
+    /// Number of differences.
     count: usize,
+    /// Index of the present step's difference.
     head: usize,
-    /// The last step has left one.
-    left: bool,
+    /// The present step has stored its difference.
+    is_stored: bool,
 }
 
 impl MultistepHistory {
-    /// A substep begins where the last one ended.
-    pub fn begin(&mut self) {
-        if self.left {
-            self.head = (self.head + 1) % KEPT;
-            self.count = (self.count + 1).min(ENOUGH);
-            self.left = false;
+    /// Begins a substep where the last one ended.
+    pub fn begin_substep(&mut self) {
+        if self.is_stored {
+            self.head = (self.head + 1) % DIFFERENCES;
+            self.count = (self.count + 1).min(ORDER);
+            self.is_stored = false;
         }
     }
 
-    /// Something has happened: what was learnt before says nothing of what comes.
+    /// Discards the history: past differences say nothing about the next step.
     pub fn end(&mut self) {
-        (self.count, self.left) = (0, false);
+        (self.count, self.is_stored) = (0, false);
     }
 
-    /// A step of `h` seconds is done; answers where its difference goes.
-    pub fn goes_by(&mut self, h: f64) -> usize {
+    /// Records a step of `h` seconds by another method. Returns the index of its difference.
+    pub fn record_step(&mut self, h: f64) -> usize {
         if self.h != h {
             self.end();
             self.h = h;
         }
-        self.left = true;
+        self.is_stored = true;
         self.head
     }
 
-    /// Has motion been smooth for as long as a step of `h` seconds asks?
-    pub fn serves(&self, h: f64) -> bool {
-        self.count >= ENOUGH && self.h == h
+    /// Whether there are enough differences for a step of `h` seconds.
+    pub fn is_sufficient(&self, h: f64) -> bool {
+        self.count >= ORDER && self.h == h
     }
 
-    /// The step has been this method's own.
-    pub fn go_on(&mut self) {
-        self.left = true;
+    /// Records a step by this method.
+    pub fn extend(&mut self) {
+        self.is_stored = true;
     }
 
     /// Predicts the state after `h` seconds and finds the accelerations there, at the time `t + h`. Those of the present state
-    /// are known.
+    /// must be known.
     pub fn predict(
         &self,
         equations: &mut Equations,
         bodies: &mut [RigidBody],
         states: &mut [SubstepState],
-        (t, h): (f64, f64),
+        t: f64,
+        h: f64,
     ) {
-        run_kernel(&mut equations.system, Predict { states, h, slots: self.slots() });
+        run_kernel(&mut equations.system, Predict { states, h, indices: self.indices() });
         equations.accelerate(bodies, t + h);
     }
 
-    /// Corrects the predicted state by the accelerations found there. Was the motion smooth enough for it?
-    pub fn correct(&self, system: &mut System, states: &mut [SubstepState], norms: &mut [[f64; 2]], h: f64) -> bool {
-        run_kernel(system, Correct { states, norms: &mut *norms, h, slots: self.slots(), slot: self.head });
+    /// Corrects the predicted state by the accelerations found there.
+    pub fn correct(
+        &self,
+        system: &mut System,
+        states: &mut [SubstepState],
+        norms: &mut [[f64; 2]],
+        h: f64,
+    ) -> Smoothness {
+        run_kernel(system, Correct { states, norms: &mut *norms, h, indices: self.indices(), index: self.head });
         let [error, scale] = norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
-        // What is no number is not small.
-        error <= SMOOTH * SMOOTH * scale
+        // NaN is not smooth.
+        if error <= TOLERANCE * TOLERANCE * scale { Smoothness::Smooth } else { Smoothness::NotSmooth }
     }
 
-    /// The slots of the last differences, the newest first.
-    fn slots(&self) -> [usize; ENOUGH] {
-        [1, 2, 3].map(|ago| (self.head + KEPT - ago) % KEPT)
+    /// Indices of the last differences, the newest first.
+    fn indices(&self) -> [usize; ORDER] {
+        [1, 2, 3].map(|ago| (self.head + DIFFERENCES - ago) % DIFFERENCES)
     }
 }
 
 /// ∇, ∇² and ∇³ of the last steps.
 #[inline(always)]
-fn differences<L: Lanes>(lanes: L, substep: &SubstepState, slots: [usize; ENOUGH]) -> [Twist<L::T>; ENOUGH] {
-    let at = |ago: usize| substep.differences[slots[ago]].get(lanes);
+fn differences<L: Lanes>(lanes: L, substep: &SubstepState, indices: [usize; ORDER]) -> [Twist<L::T>; ORDER] {
+    let at = |ago: usize| substep.differences[indices[ago]].get(lanes);
     let (first, second, third) = (at(0), at(1), at(2));
-    let (last, before) = (less(first, second), less(second, third));
-    [first, last, less(last, before)]
+    let (last, before) = (difference(first, second), difference(second, third));
+    [first, last, difference(last, before)]
 }
 
 /// Σ w_i of some vectors.
@@ -127,13 +142,19 @@ fn sum<T: Real, const N: usize>(vectors: [V3<T>; N], weights: [f64; N]) -> V3<T>
     sum
 }
 
-/// The state that velocities `v`, ω and ways (m, rad) lead to.
+/// The state with the velocities `to`, displaced and rotated by `displacement` (m, rad).
 #[inline(always)]
-fn arrived<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, to: Twist<T>, mut way: Twist<T>) -> State<T> {
-    way.angular -= from.spin.cross(to.angular) * from.rotation.w.all(h * h / 12.0);
+fn displaced<T: Real, L: Lanes<T = T>>(
+    lanes: L,
+    from: &State<T>,
+    h: f64,
+    to: Twist<T>,
+    mut displacement: Twist<T>,
+) -> State<T> {
+    displacement.angular -= from.spin.cross(to.angular) * from.rotation.w.all(h * h / 12.0);
     State {
-        position: from.position + way.linear,
-        rotation: Quat::of_turn(lanes, way.angular).times(from.rotation).renormalized(),
+        position: from.position + displacement.linear,
+        rotation: Quat::of_turn(lanes, displacement.angular).times(from.rotation).renormalized(),
         velocity: to.linear,
         spin: to.angular,
     }
@@ -142,26 +163,26 @@ fn arrived<T: Real, L: Lanes<T = T>>(lanes: L, from: &State<T>, h: f64, to: Twis
 struct Predict<'a> {
     states: &'a mut [SubstepState],
     h: f64,
-    slots: [usize; ENOUGH],
+    indices: [usize; ORDER],
 }
 
 impl LaneKernel for Predict<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let a = accelerations(lanes, system, &members);
         let substep = &mut self.states[index];
-        substep.begun.put(lanes, &a);
+        substep.start_acceleration.put(lanes, &a);
         let (start, h) = (substep.start.get(lanes), self.h);
-        let [d, dd, ddd] = differences(lanes, substep, self.slots);
+        let [d, dd, ddd] = differences(lanes, substep, self.indices);
         let h2 = h * h;
-        let speed = [1.0, h, h / 2.0, h * 5.0 / 12.0, h * 3.0 / 8.0];
-        let way = [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0];
+        let velocity = [1.0, h, h / 2.0, h * 5.0 / 12.0, h * 3.0 / 8.0];
+        let displacement = [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0];
         let linear = [start.velocity, a.linear, d.linear, dd.linear, ddd.linear];
         let angular = [start.spin, a.angular, d.angular, dd.angular, ddd.angular];
-        let to = Twist { linear: sum(linear, speed), angular: sum(angular, speed) };
-        let way = Twist { linear: sum(linear, way), angular: sum(angular, way) };
-        let state = arrived(lanes, &start, h, to, way);
+        let to = Twist { linear: sum(linear, velocity), angular: sum(angular, velocity) };
+        let displacement = Twist { linear: sum(linear, displacement), angular: sum(angular, displacement) };
+        let state = displaced(lanes, &start, h, to, displacement);
         put(lanes, system, index, &state);
     }
 }
@@ -170,40 +191,40 @@ struct Correct<'a> {
     states: &'a mut [SubstepState],
     norms: &'a mut [[f64; 2]],
     h: f64,
-    slots: [usize; ENOUGH],
-    /// Where the step's own difference goes.
-    slot: usize,
+    indices: [usize; ORDER],
+    /// Index of the step's own difference.
+    index: usize,
 }
 
 impl LaneKernel for Correct<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
         let a = accelerations(lanes, system, &members);
         let substep = &self.states[index];
         let (start, h) = (substep.start.get(lanes), self.h);
-        let [d, dd, ddd] = differences(lanes, substep, self.slots);
-        let first = less(a, substep.begun.get(lanes));
-        let second = less(first, d);
-        let third = less(second, dd);
-        let fourth = less(third, ddd);
-        let speed = [1.0, h, -h / 2.0, -h / 12.0, -h / 24.0];
-        let way = [h / 2.0, h / 2.0, -h * h / 12.0];
+        let [d, dd, ddd] = differences(lanes, substep, self.indices);
+        let first = difference(a, substep.start_acceleration.get(lanes));
+        let second = difference(first, d);
+        let third = difference(second, dd);
+        let fourth = difference(third, ddd);
+        let velocity = [1.0, h, -h / 2.0, -h / 12.0, -h / 24.0];
+        let displacement = [h / 2.0, h / 2.0, -h * h / 12.0];
         let to = Twist {
-            linear: sum([start.velocity, a.linear, first.linear, second.linear, third.linear], speed),
-            angular: sum([start.spin, a.angular, first.angular, second.angular, third.angular], speed),
+            linear: sum([start.velocity, a.linear, first.linear, second.linear, third.linear], velocity),
+            angular: sum([start.spin, a.angular, first.angular, second.angular, third.angular], velocity),
         };
-        let way = Twist {
-            linear: sum([start.velocity, to.linear, first.linear], way),
-            angular: sum([start.spin, to.angular, first.angular], way),
+        let displacement = Twist {
+            linear: sum([start.velocity, to.linear, first.linear], displacement),
+            angular: sum([start.spin, to.angular, first.angular], displacement),
         };
-        let state = arrived(lanes, &start, h, to, way);
-        let share = mass.all(ERROR * h);
-        let error = norm(mass, &inertia, &Twist { linear: fourth.linear * share, angular: fourth.angular * share });
+        let state = displaced(lanes, &start, h, to, displacement);
+        let weight = mass.all(ERROR * h);
+        let error = norm(mass, &inertia, &Twist { linear: fourth.linear * weight, angular: fourth.angular * weight });
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &to) + mass * slowest * slowest;
-        self.states[index].differences[self.slot].put(lanes, &first);
+        self.states[index].differences[self.index].put(lanes, &first);
         put(lanes, system, index, &state);
         let norms = &mut *self.norms;
         lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
@@ -225,7 +246,7 @@ mod tests {
     const DT: f64 = 1.0 / 240.0;
 
     /// One body, far above a floor.
-    fn figure(body: RigidBody, constraints: &[Constraint], gravity: f64, integrator: Integrator) -> Dynamics {
+    fn articulation(body: RigidBody, constraints: &[Constraint], gravity: f64, integrator: Integrator) -> Dynamics {
         let far = Shape::plane(DVec3::Y * -100.0, DVec3::Y);
         let collider = |body, shape| Collider { body, shape, material: 0, node: String::new() };
         let colliders = [collider(Some(0), Shape::sphere(DVec3::ZERO, 1e-3)), collider(None, far)];
@@ -238,7 +259,7 @@ mod tests {
             integrator,
             solver: Solver::Sparse,
         };
-        let figure = Articulation {
+        let articulation = Articulation {
             bodies: vec![body],
             damping: vec![Damping::default()],
             constraints,
@@ -248,7 +269,7 @@ mod tests {
             pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
             colliders: &colliders,
         };
-        Dynamics::new(figure, settings)
+        Dynamics::new(articulation, settings)
     }
 
     fn body(inertia: DVec3, position: DVec3) -> RigidBody {
@@ -268,7 +289,7 @@ mod tests {
 
     #[test]
     fn a_pendulum_errs_in_phase_and_swing_as_the_formula_says() {
-        /// What is left of the formulas: the next order; in the swing also that joints are closed after each step.
+        /// What is is_stored of the formulas: the next order; in the swing also that joints are closed after each step.
         const SPREAD: [f64; 2] = [0.05, 0.15];
         const PHI: f64 = 0.07;
         let omega = PHI / DT;
@@ -282,7 +303,7 @@ mod tests {
             let mut rod = body(DVec3::splat(0.3 * arm * arm), DVec3::Y * -arm);
             rod.velocity = DVec3::X * 4e-4;
             rod.angular_velocity = DVec3::Z * (4e-4 / arm);
-            figure(rod, &constraints, G, integrator)
+            articulation(rod, &constraints, G, integrator)
         });
         let steps = 2000;
         let done = run(&mut own, DT, steps);
@@ -305,7 +326,7 @@ mod tests {
             let mut top = body(DVec3::new(1e-5, 2e-5, 2.6e-5), DVec3::ZERO);
             top.rotation = rotation(DVec3::new(0.3, -0.4, 0.5));
             top.angular_velocity = DVec3::new(1.5, 2.0, -1.2);
-            let mut dynamics = figure(top, &[], 0.0, integrator);
+            let mut dynamics = articulation(top, &[], 0.0, integrator);
             let steps = (2.0 / dt).round() as usize;
             let own = run(&mut dynamics, dt, steps);
             assert!(integrator != Integrator::Auto || own > steps - 10, "{own} of {steps}");
@@ -320,7 +341,7 @@ mod tests {
 
     #[test]
     fn pushes_that_change_from_step_to_step_do_not_end_the_run_and_a_step_of_another_length_does() {
-        let mut dynamics = figure(body(DVec3::splat(1e-5), DVec3::ZERO), &[], 0.0, Integrator::Auto);
+        let mut dynamics = articulation(body(DVec3::splat(1e-5), DVec3::ZERO), &[], 0.0, Integrator::Auto);
         let mut random = Random::new(3);
         let (mut speed, mut place, mut own) = (0.0, 0.0, 0);
         for _ in 0..100 {

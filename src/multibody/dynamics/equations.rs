@@ -1,6 +1,6 @@
-//! The equations of motion of a figure: what accelerations its bodies have at a state, and what closes their joints there.
+//! Constrained equations of motion: accelerations by Lagrange multipliers, and projection of the joints.
 //!
-//! A state is that of the bodies in the quads of the tree; `bodies` follow where they are asked for.
+//! The state of the bodies is that of the lane blocks of the joints' tree; `bodies` are written where they are needed.
 
 use super::KinematicBody;
 use super::forces::{Damping, Springs, Wrenches};
@@ -9,60 +9,80 @@ use crate::articulation::System;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::lanes::Four;
-use soffio_math::spatial::{Vec6, angular, linear, vec6};
+use soffio_math::spatial::{Vec6, angular, linear};
 
-/// Joints farther apart than this before projection are projected twice, m or rad: the second time from the square of it.
+/// Joints open by more than this are projected twice, m or rad: Newton's error is the square of it.
 const COARSE: f64 = 1e-7;
 
-/// How much of a figure's system belongs to the present state: each the more after the one before.
+/// How much of the joints' system is evaluated at the present state; each includes those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Evaluated {
-    /// Nothing: bodies have moved, or joints have changed.
+    /// Nothing: bodies have moved or joints have changed.
     Nothing,
-    /// Rows and factor, as a projection or a substep's end leaves them; not the accelerations, since forces have changed.
+    /// Rows and factor; not the accelerations, because forces have changed.
     Factor,
     /// The accelerations too.
     Accelerations,
 }
 
-/// The equations of motion of a figure.
+/// How the joints are closed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct JointClosing {
+    /// Factor the rows at the present state; else reuse the factor of a state that is close to it.
+    pub refactor: bool,
+    /// Close the joints in velocity too.
+    pub velocities: bool,
+}
+
+/// What the equations of motion are made of.
+pub(super) struct EquationSetup<'a> {
+    /// The joints, evaluated at the start.
+    pub system: System,
+    /// The same joints without trains, where there are trains.
+    pub without_trains: Option<Box<System>>,
+    pub springs: Springs,
+    pub kinematic_bodies: &'a [KinematicBody],
+    /// Damping of each body.
+    pub damping: &'a [Damping],
+    /// World acceleration, m/s².
+    pub gravity: DVec3,
+    /// 1/ω₀ of the stabiliser, s.
+    pub stabilization_time: f64,
+}
+
+/// The equations of motion of an articulation.
 #[derive(Clone)]
 pub(super) struct Equations {
     /// The joints.
     pub system: System,
-    /// The same joints without trains, for movers by places.
+    /// The same joints without trains, for position-based motion.
     pub without_trains: Option<Box<System>>,
     pub springs: Springs,
     pub kinematic_bodies: Vec<KinematicBody>,
-    /// Body and acceleration of each drive at the time last asked for.
+    /// Each kinematic body and its acceleration at the time last evaluated.
     kinematic_accelerations: Vec<(usize, Vec6)>,
-    /// Rates of damping by quads, linear and angular, 1/s.
+    /// Linear and angular damping rates by lane blocks, 1/s.
     damping: Vec<[Four; 2]>,
     pub wrenches: Wrenches,
     /// World acceleration, m/s².
     gravity: DVec3,
     /// 1/ω₀ of the stabiliser, s.
     stabilization_time: f64,
-    /// What of the system belongs to the present state.
     pub evaluated: Evaluated,
 }
 
 impl Equations {
-    /// Those of joints that have been evaluated at the figure's start, under no wrenches yet.
-    pub fn new(
-        (system, without_trains): (System, Option<Box<System>>),
-        springs: Springs,
-        kinematic_bodies: &[KinematicBody],
-        damping: &[Damping],
-        (gravity, stabilization_time): (DVec3, f64),
-    ) -> Self {
+    /// The equations of motion without external wrenches.
+    pub fn new(setup: EquationSetup) -> Self {
+        let EquationSetup { system, without_trains, springs, kinematic_bodies, damping, gravity, stabilization_time } =
+            setup;
         let of_bodies = |bodies: [usize; soffio_math::lanes::WIDTH]| {
             let damping = bodies.map(|body| damping[body]);
             [Four(damping.map(|rate| rate.linear)), Four(damping.map(|rate| rate.angular))]
         };
         Self {
             damping: system.quads().members().iter().map(|members| of_bodies(members.bodies)).collect(),
-            kinematic_accelerations: kinematic_bodies.iter().map(|drive| (drive.body, [0.0; 6])).collect(),
+            kinematic_accelerations: kinematic_bodies.iter().map(|kinematic| (kinematic.body, [0.0; 6])).collect(),
             wrenches: Wrenches::new(damping.len()),
             system,
             without_trains,
@@ -74,14 +94,14 @@ impl Equations {
         }
     }
 
-    /// Damping of a body.
+    /// Damping rates of a body.
     pub fn damping(&self, body: usize) -> Damping {
         let slot = self.system.quads().slot(body);
         let [linear, angular] = self.damping[slot.quad].each_ref().map(|rate| rate.0[slot.lane]);
         Damping { linear, angular }
     }
 
-    /// Accelerations of the present state into the system's `a`, as far as they are not there already.
+    /// Finds the accelerations at the present state, in the system's `a`, unless they are known.
     pub fn ensure_accelerations(&mut self, bodies: &mut [RigidBody], t: f64) {
         if self.evaluated == Evaluated::Accelerations {
             return;
@@ -96,7 +116,7 @@ impl Equations {
         self.evaluated = Evaluated::Accelerations;
     }
 
-    /// Accelerations at the quads' present state, rows and factor made anew.
+    /// Finds the accelerations at the lane blocks' present state, with new rows and a new factor.
     pub fn accelerate(&mut self, bodies: &mut [RigidBody], t: f64) {
         self.place_kinematic_bodies(bodies, t);
         self.write_back_if_needed(bodies);
@@ -105,46 +125,45 @@ impl Equations {
         self.solve_forces(bodies, t);
     }
 
-    /// Accelerations by the rows and the factor at hand.
+    /// Finds the accelerations by the present rows and factor.
     pub fn solve_forces(&mut self, bodies: &[RigidBody], t: f64) {
-        let push = ApplyForces { external: &self.wrenches.total, damping: &self.damping, gravity: self.gravity };
-        run_kernel(&mut self.system, push);
-        self.springs.push(bodies, t, &mut self.system.b);
+        let kernel = ApplyForces { external: &self.wrenches.total, damping: &self.damping, gravity: self.gravity };
+        run_kernel(&mut self.system, kernel);
+        self.springs.add_forces(bodies, t, &mut self.system.b);
         for (body, a) in &self.kinematic_accelerations {
             self.system.a[*body] = *a;
         }
         self.system.solve_acceleration(bodies, 1.0 / self.stabilization_time);
     }
 
-    /// Puts driven bodies where they belong at the time `t`.
+    /// Moves kinematic bodies to their states at the time `t`.
     pub fn place_kinematic_bodies(&mut self, bodies: &mut [RigidBody], t: f64) {
         self.system.activity.set_time(t);
-        for (drive, (body, a)) in self.kinematic_bodies.iter().zip(&mut self.kinematic_accelerations) {
-            let (acceleration, turn) = drive.motion.at(t).place(&mut bodies[*body]);
+        for (kinematic, (body, a)) in self.kinematic_bodies.iter().zip(&mut self.kinematic_accelerations) {
+            *a = kinematic.motion.at(t).place(&mut bodies[*body]);
             self.system.quads_mut().look_at(*body, &bodies[*body]);
-            *a = vec6(acceleration, turn);
         }
     }
 
-    /// Moves bodies and quads by semi-implicit Euler over `h`, by the accelerations found last.
+    /// Advances bodies and lane blocks by semi-implicit Euler over `h`, by the last accelerations.
     pub fn step_euler(&mut self, bodies: &mut [RigidBody], h: f64) {
         for (body, a) in bodies.iter_mut().zip(&self.system.a) {
             body.velocity += h * linear(a);
             body.angular_velocity += h * angular(a);
-            let (way, turn) = (h * body.velocity, h * body.angular_velocity);
-            body.displace(way, turn);
+            let (displacement, rotation) = (h * body.velocity, h * body.angular_velocity);
+            body.displace(displacement, rotation);
         }
         self.system.quads_mut().look(bodies);
     }
 
-    /// Closes the joints of the bodies in place and speed; leaves the system factored there.
+    /// Closes the joints in position and velocity; leaves the system factored there.
     pub fn project(&mut self, bodies: &mut [RigidBody]) {
         self.system.quads_mut().look(bodies);
-        self.close_joints(bodies, true, true);
+        self.close_joints(bodies, JointClosing { refactor: true, velocities: true });
         self.evaluated = Evaluated::Factor;
     }
 
-    /// Takes over the velocities of bodies whose joints are closed, and factored there.
+    /// Takes over the state of bodies whose joints are closed, and whose factor is reused.
     pub fn take_over_state(&mut self, bodies: &mut [RigidBody]) {
         self.system.quads_mut().look(bodies);
         self.evaluate_quads(bodies);
@@ -152,17 +171,16 @@ impl Equations {
         self.evaluated = Evaluated::Factor;
     }
 
-    /// Closes the joints at the quads' new state, at the time `t`; in speed where nothing does so afterwards. Not `anew`, the
-    /// factor is that of a state which differs by less than a step's error.
-    pub fn close(&mut self, bodies: &mut [RigidBody], t: f64, (anew, in_speed): (bool, bool)) {
+    /// Closes the joints at the lane blocks' new state, at the time `t`, and writes the bodies.
+    pub fn close_joints_at(&mut self, bodies: &mut [RigidBody], t: f64, closing: JointClosing) {
         self.place_kinematic_bodies(bodies, t);
-        self.close_joints(bodies, anew, in_speed);
+        self.close_joints(bodies, closing);
     }
 
-    /// The same as [`Equations::project`] where the quads are, factored `anew` and `in_speed` too if asked; the bodies follow.
-    fn close_joints(&mut self, bodies: &mut [RigidBody], anew: bool, in_speed: bool) {
+    /// Closes the joints at the lane blocks' state, and writes the bodies.
+    fn close_joints(&mut self, bodies: &mut [RigidBody], JointClosing { refactor, velocities }: JointClosing) {
         self.evaluate_quads(bodies);
-        if anew {
+        if refactor {
             self.system.factor();
         }
         if self.system.states().is_empty() {
@@ -174,14 +192,14 @@ impl Equations {
         self.system.solve_displacement();
         self.system.close_quads();
         if apart > COARSE {
-            // Newton's error is the square of what was there.
+            // Newton's error is the square of the gap.
             self.system.quads_mut().turn();
             self.evaluate_quads(bodies);
             self.system.factor();
             self.system.solve_displacement();
             self.system.close_quads();
         }
-        if in_speed {
+        if velocities {
             self.system.solve_velocity_quads(bodies);
             run_kernel(&mut self.system, AddVelocityChange { bodies });
         } else {
@@ -189,19 +207,20 @@ impl Equations {
         }
     }
 
-    /// Evaluates the rows at the quads' present state.
+    /// Evaluates the rows at the lane blocks' present state.
     fn evaluate_quads(&mut self, bodies: &mut [RigidBody]) {
         self.write_back_if_needed(bodies);
         self.system.evaluate_quads(bodies);
     }
 
+    /// Writes the bodies from the lane blocks, where rows or springs read them.
     fn write_back_if_needed(&mut self, bodies: &mut [RigidBody]) {
         if self.system.asks_bodies() || !self.springs.is_empty() {
             run_kernel(&mut self.system, WriteBack { bodies });
         }
     }
 
-    /// Lets pivot friction act for `dt` seconds under these loads of the joints (N), the joints held.
+    /// Applies pivot friction over `dt` seconds under these joint loads (N), the joints held.
     pub fn apply_pivot_friction(&mut self, bodies: &mut [RigidBody], loads: &[f64], dt: f64) {
         self.system.evaluate(bodies);
         self.system.add_friction(bodies, loads, dt);
@@ -211,7 +230,7 @@ impl Equations {
         self.evaluated = Evaluated::Nothing;
     }
 
-    /// Factors the joints at the present poses, for impulses.
+    /// Factors the joints at the bodies' present poses, for impulses.
     pub fn prepare_impulses(&mut self, bodies: &[RigidBody]) {
         self.system.evaluate_lean(bodies);
         self.system.factor();

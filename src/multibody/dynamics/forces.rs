@@ -1,8 +1,8 @@
-//! Forces on the bodies: gravity, springs, damping, the gyroscopic torque, and what is handed in from outside.
+//! Forces on the bodies: gravity, springs, damping, the gyroscopic torque, and external wrenches.
 //!
 //! ```text
 //! body     f = m g − c m v            τ = −ω × I ω − c' I ω
-//! spring   F = k (l − l₀) + c l̇       along the line of its two points, or as a torque about the axis of a turn
+//! spring   F = k (l − l₀) + c l̇       along the line of its two points, or as a torque about an axis
 //! ```
 
 use crate::articulation::ball::Twist;
@@ -18,43 +18,57 @@ use soffio_math::{DMat3, DVec3};
 /// Damping rates of a body, 1/s: force −c m v, torque −c I ω.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Damping {
-    /// Of the centre's velocity.
+    /// Of the velocity of the centre of mass.
     pub linear: f64,
     /// Of the angular velocity.
     pub angular: f64,
 }
 
-/// Gravity, damping and the gyroscopic torque on bodies of this mass and world inertia, at these velocities.
-#[inline(always)]
-pub fn on_body<T: Real>(
-    (mass, inertia): (T, &Sym3<T>),
-    (velocity, spin): (V3<T>, V3<T>),
-    gravity: DVec3,
-    (linear, angular): (T, T),
-) -> Twist<T> {
-    let gravity = V3 { x: mass.all(gravity.x), y: mass.all(gravity.y), z: mass.all(gravity.z) };
-    let momentum = inertia.mul(spin);
-    Twist { linear: (gravity - velocity * linear) * mass, angular: -spin.cross(momentum) - momentum * angular }
+/// Bodies in lanes, for [`body_wrench`].
+#[derive(Clone, Copy, Debug)]
+pub struct BodyLanes<T> {
+    /// Mass, kg.
+    pub mass: T,
+    /// World inertia, kg m².
+    pub inertia: Sym3<T>,
+    /// Velocities, m/s and rad/s.
+    pub velocity: Twist<T>,
+    /// Linear damping rate, 1/s.
+    pub linear_damping: T,
+    /// Angular damping rate, 1/s.
+    pub angular_damping: T,
 }
 
-/// Wrenches on the bodies of a figure, N and N m about each centre of mass. Nothing here allocates after [`Wrenches::new`].
+/// Wrench of gravity (m/s²), damping and the gyroscopic torque on bodies, N and N m.
+#[inline(always)]
+pub fn body_wrench<T: Real>(bodies: &BodyLanes<T>, gravity: DVec3) -> Twist<T> {
+    let BodyLanes { mass, inertia, velocity: Twist { linear: velocity, angular: spin }, .. } = *bodies;
+    let gravity = V3 { x: mass.all(gravity.x), y: mass.all(gravity.y), z: mass.all(gravity.z) };
+    let momentum = inertia.mul(spin);
+    Twist {
+        linear: (gravity - velocity * bodies.linear_damping) * mass,
+        angular: -spin.cross(momentum) - momentum * bodies.angular_damping,
+    }
+}
+
+/// Wrenches on the bodies, N and N m about each centre of mass. Nothing here allocates after [`Wrenches::new`].
 #[derive(Clone, Debug)]
 pub(super) struct Wrenches {
-    /// From outside, for the whole of a step.
+    /// External ones, constant over a step.
     pub given: Vec<Vec6>,
-    /// The same with those of resting contacts, or of springs where something else moves the figure.
+    /// The same and those of resting contacts or, in position-based steps, of springs.
     pub total: Vec<Vec6>,
     scratch: Vec<Vec6>,
 }
 
 impl Wrenches {
-    /// None on any of `bodies` bodies.
+    /// No wrenches on so many bodies.
     pub fn new(bodies: usize) -> Self {
         let none = vec![[0.0; 6]; bodies];
         Self { given: none.clone(), total: none.clone(), scratch: none }
     }
 
-    /// Sums up those from outside and what `add` adds to them. Is the total another one now?
+    /// Sets the total to the external wrenches and those that `add` adds. Returns whether the total changed.
     pub fn sum_up(&mut self, add: impl FnOnce(&mut [Vec6])) -> bool {
         self.scratch.copy_from_slice(&self.given);
         add(&mut self.scratch);
@@ -66,28 +80,31 @@ impl Wrenches {
     }
 }
 
-/// All springs of a figure.
+/// The springs of an articulation.
 #[derive(Clone, Debug)]
 pub struct Springs {
     springs: Vec<Spring>,
-    /// What each measures, for the angular ones.
+    /// Gauge of each angular spring.
     gauges: Vec<Option<Gauge>>,
-    /// Which act now.
+    /// Which springs act, and how much.
     pub activity: Activity,
     /// Springs of bodies that are awake.
     acting: Vec<usize>,
+    /// Rotation matrices of the bodies.
     frames: Vec<DMat3>,
 }
 
-/// Where a spring is now: its length or angle, the rate of that, and the wrenches of a unit of force on its ends.
-struct Stretch {
+/// State of a spring: its length or angle, the rate of it, and the wrenches of a unit force on its bodies.
+struct SpringState {
+    /// m or rad.
     value: f64,
+    /// m/s or rad/s.
     rate: f64,
     ends: [(Option<usize>, Vec6); 2],
 }
 
 impl Springs {
-    /// Springs of bodies at their start.
+    /// The springs of bodies in their start state.
     pub fn new(springs: &[Spring], bodies: &[RigidBody]) -> Self {
         let gauge = |spring: &Spring| match &spring.kind {
             SpringKind::Linear { .. } => None,
@@ -102,29 +119,29 @@ impl Springs {
         }
     }
 
-    /// Is there none?
+    /// Whether there are no springs.
     pub fn is_empty(&self) -> bool {
         self.springs.is_empty()
     }
 
-    /// Leaves out springs of bodies that sleep.
-    pub fn let_sleep(&mut self, asleep: &[bool]) {
+    /// Sets which bodies sleep; their springs are left out.
+    pub fn set_asleep(&mut self, asleep: &[bool]) {
         let Self { springs, acting, .. } = self;
-        let idle =
+        let sleeps =
             |spring: &Spring| asleep.iter().enumerate().any(|(body, asleep)| *asleep && spring.kind.touches(body));
         acting.clear();
-        acting.extend((0..springs.len()).filter(|&spring| !idle(&springs[spring])));
+        acting.extend((0..springs.len()).filter(|&spring| !sleeps(&springs[spring])));
     }
 
-    /// Adds their forces at the time `t` to `b`.
-    pub fn push(&mut self, bodies: &[RigidBody], t: f64, b: &mut [Vec6]) {
+    /// Adds the springs' wrenches at the time `t` to `b`, N and N m.
+    pub fn add_forces(&mut self, bodies: &[RigidBody], t: f64, b: &mut [Vec6]) {
         if self.acting.is_empty() {
             return;
         }
-        self.look(bodies);
+        self.update_frames(bodies);
         for &index in &self.acting {
-            let (force, stretch) = self.force(index, bodies, t);
-            for (body, wrench) in &stretch.ends {
+            let (force, state) = self.force(index, bodies, t);
+            for (body, wrench) in &state.ends {
                 if let Some(body) = body {
                     add_scaled(&mut b[*body], force, wrench);
                 }
@@ -132,12 +149,12 @@ impl Springs {
         }
     }
 
-    /// Breaks what is overloaded at the time `t`.
+    /// Breaks overloaded springs at the time `t`.
     pub fn break_overloaded(&mut self, bodies: &[RigidBody], t: f64) {
         if self.activity.fragile().is_empty() {
             return;
         }
-        self.look(bodies);
+        self.update_frames(bodies);
         for k in 0..self.activity.fragile().len() {
             let index = self.activity.fragile()[k];
             let (force, _) = self.force(index, bodies, t);
@@ -152,7 +169,7 @@ impl Springs {
         }
     }
 
-    /// Counts turns up to this state; once a step.
+    /// Counts full turns up to this state; to be called once a step.
     pub fn count_turns(&mut self, bodies: &[RigidBody]) {
         self.gauges.iter_mut().flatten().for_each(|gauge| gauge.count(bodies));
     }
@@ -163,37 +180,37 @@ impl Springs {
         (0..self.springs.len())
             .map(|index| {
                 let spring = &self.springs[index];
-                let stretch = self.stretch(index, bodies, &frames).value - spring.rest.at(t).value;
+                let stretch = self.state(index, bodies, &frames).value - spring.rest.at(t).value;
                 0.5 * self.activity.share(index) * spring.stiffness.at(t).value * stretch * stretch
             })
             .sum()
     }
 
-    fn look(&mut self, bodies: &[RigidBody]) {
+    fn update_frames(&mut self, bodies: &[RigidBody]) {
         for (frame, body) in self.frames.iter_mut().zip(bodies) {
             *frame = matrix(body.rotation);
         }
     }
 
-    /// Force (N) or torque (N m) that shortens the spring.
-    fn force(&self, index: usize, bodies: &[RigidBody], t: f64) -> (f64, Stretch) {
-        let (spring, stretch) = (&self.springs[index], self.stretch(index, bodies, &self.frames));
+    /// Force (N) or torque (N m) that shortens a spring, and its state.
+    fn force(&self, index: usize, bodies: &[RigidBody], t: f64) -> (f64, SpringState) {
+        let (spring, state) = (&self.springs[index], self.state(index, bodies, &self.frames));
         let rest = spring.rest.at(t);
-        let pull = spring.stiffness.at(t).value * (stretch.value - rest.value)
-            + spring.damping.at(t).value * (stretch.rate - rest.rate);
-        (self.activity.share(index) * pull, stretch)
+        let pull = spring.stiffness.at(t).value * (state.value - rest.value)
+            + spring.damping.at(t).value * (state.rate - rest.rate);
+        (self.activity.share(index) * pull, state)
     }
 
-    fn stretch(&self, index: usize, bodies: &[RigidBody], frames: &[DMat3]) -> Stretch {
+    fn state(&self, index: usize, bodies: &[RigidBody], frames: &[DMat3]) -> SpringState {
         let scene = Scene { bodies, frames, time: 0.0 };
         match (&self.springs[index].kind, &self.gauges[index]) {
             (SpringKind::Linear { a, b }, _) => {
                 let (p, q) = (scene.point(a), scene.point(b));
-                let way = q.position - p.position;
-                let along = way.try_normalize().unwrap_or(DVec3::ZERO);
+                let separation = q.position - p.position;
+                let along = separation.try_normalize().unwrap_or(DVec3::ZERO);
                 let wrench = |anchor: &Anchor, arm: DVec3, e: DVec3| (anchor.body, vec6(e, arm.cross(e)));
-                Stretch {
-                    value: way.length(),
+                SpringState {
+                    value: separation.length(),
                     rate: (q.velocity - p.velocity).dot(along),
                     ends: [wrench(a, p.arm, along), wrench(b, q.arm, -along)],
                 }
@@ -206,18 +223,18 @@ impl Springs {
                         soffio_math::spatial::dot(block, &vec6(bodies[i].velocity, bodies[i].angular_velocity))
                     })
                 };
-                Stretch {
+                SpringState {
                     value: reading.total(),
                     rate: rate(on, &reading.on) + rate(against, &reading.against),
                     ends: [(on, reading.on.map(|x| -x)), (against, reading.against.map(|x| -x))],
                 }
             }
-            (SpringKind::Angular { .. }, None) => Stretch { value: 0.0, rate: 0.0, ends: [(None, [0.0; 6]); 2] },
+            (SpringKind::Angular { .. }, None) => SpringState { value: 0.0, rate: 0.0, ends: [(None, [0.0; 6]); 2] },
         }
     }
 }
 
-/// Kinetic energy, and potential energy in gravity (zero at the world's origin), J.
-pub fn energy(bodies: &[RigidBody], gravity: DVec3) -> f64 {
+/// Kinetic energy, and potential energy in gravity (m/s²; zero at the world's origin), J.
+pub fn mechanical_energy(bodies: &[RigidBody], gravity: DVec3) -> f64 {
     bodies.iter().map(|b| b.kinetic_energy() - b.properties.mass * gravity.dot(b.position)).sum()
 }

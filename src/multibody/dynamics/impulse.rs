@@ -1,65 +1,65 @@
-//! The impulse of one hit with friction: stick, slide and reversal, with energetic restitution.
+//! Frictional impact at one point (Routh, Mirtich, Stronge): stick, slide and reversal, with energetic restitution.
 //!
 //! Contact frame: z the normal, u the relative velocity of the contact points (u_z < 0 approaches), K the effective
-//! inverse mass of the contact (joints included), P the impulse: u = u₀ + K P. During the hit P_z grows and
+//! inverse mass of the contact (joints included), P the impulse: u = u₀ + K P. During the impact P_z grows and
 //!
 //! ```text
 //! sliding:   dP/dP_z = (−μ d, 1),  d = u_T/|u_T|               Coulomb
 //! sticking:  dP/dP_z = (s, 1),     K_TT s = −K_Tz              keeps u_T = 0; holds where |s| ≤ μ
-//! leaving:   dP/dP_z = (−μ d, 1),  K_TT (−μ d) + K_Tz = η d, η > 0      slip that grows from rest where |s| > μ
+//! starting:  dP/dP_z = (−μ d, 1),  K_TT (−μ d) + K_Tz = η d, η > 0      slip that grows from zero where |s| > μ
 //! ```
 //!
 //! (B. Mirtich, Impulse-based Dynamic Simulation, 1996.) With k̂ the entries of K⁻¹, s = (k̂₁₃, k̂₂₃)/k̂₃₃, so sticking
-//! holds exactly where k̂₁₃² + k̂₂₃² ≤ μ² k̂₃₃²; the form with K_TT stands where joints make K singular. P_z is the
-//! parameter throughout, because it grows whatever K is, while u_z may fall again during restitution.
+//! holds exactly where k̂₁₃² + k̂₂₃² ≤ μ² k̂₃₃². The form with K_TT is used because joints may make K singular. P_z is the
+//! parameter throughout, because it grows for any K, while u_z may fall again during restitution.
 //!
-//! Compression ends at u_z = 0 after the work W_c = ∫ u_z dP_z < 0, restitution when the work given back is −e² W_c
+//! Compression ends at u_z = 0 after the work W_c = ∫ u_z dP_z < 0, restitution when it has returned the work −e² W_c
 //! (W. J. Stronge, Rigid body collisions with friction, 1990). Then ΔE = (1 − e²) W_c + friction's work ≤ 0 for any K.
 //!
 //! # Exact where it can be
 //!
 //! Along a straight piece of the path u is linear in P_z and the work quadratic, so the ends of the piece (slip stops,
-//! compression ends, restitution ends) are roots in closed form. Sticking and leaving are straight to the end; sliding
-//! is straight where K keeps its direction (no friction, central hits, plane motion). Else the slip turns, and its
-//! path is followed by chords that turn little, each taking the slip's direction in its middle: friction then never
-//! does positive work, and the cone is convex, so energy and cone hold for the chords as for the path.
+//! compression ends, restitution ends) are roots in closed form. Sticking and starting slip are straight to the end. Sliding
+//! is straight where K keeps its direction (no friction, central impacts, plane motion). Else the slip turns, and chords that
+//! turn little follow its path. Each has the slip's direction in its middle, so friction never does positive work. The cone is
+//! convex, so the chords keep both bounds, of energy and of friction.
 
 use soffio_math::{DMat3, DVec2, DVec3};
 
-/// Turn of the slip along half a chord, rad.
-const TURN: f64 = 0.05;
-/// Halvings of a chord until it turns by no more, and of its direction's uncertainty.
+/// Largest angle by which slip turns along half a chord, rad.
+const CHORD_ANGLE: f64 = 0.05;
+/// Halvings of a chord until it turns by no more, and bisections for its direction.
 const HALVINGS: usize = 40;
-/// Pieces of one path at most; a slip that stops in a spiral takes some dozens.
-const MOST_PIECES: usize = 4000;
-/// Slip below this share of the approach speed, or of what it was, is no slip.
-const STILL: f64 = 1e-9;
-/// No chord is shorter than this share of the impulse so far.
-const SHORTEST: f64 = 1e-14;
-/// A direction that changes by less than this is kept, rad.
+/// Pieces of one path; a slip that stops in a spiral takes some dozens.
+const MAX_PIECES: usize = 4000;
+/// Slip below this fraction of the approach speed, or of the initial slip, is zero.
+const NO_SLIP: f64 = 1e-9;
+/// No chord is shorter than this fraction of the impulse so far.
+const MIN_CHORD: f64 = 1e-14;
+/// A direction that changes by less than this is constant, rad.
 const STRAIGHT: f64 = 1e-12;
-/// Eigenvalues of K_TT below this share of its trace are joints' doing: nothing slips that way.
-const HELD: f64 = 1e-9;
+/// In directions whose eigenvalue of K_TT is below this fraction of its trace, joints hold all slip.
+const HELD_BY_JOINTS: f64 = 1e-9;
 
-/// Where a hit stands.
+/// State of an impact on its path.
 #[derive(Clone, Copy, Debug)]
 struct Path {
-    /// Impulse and velocity so far.
+    /// Impulse (N s) and velocity (m/s) so far.
     p: DVec3,
     u: DVec3,
-    /// Normal work of the present phase, J; what restitution has to give back, infinite during compression.
+    /// Normal work of the present phase, J; and that which restitution has to return, infinite during compression.
     work: f64,
     goal: f64,
     done: bool,
 }
 
 impl Path {
-    /// P_z until the present phase ends, if u changes at this rate; infinite where it does not.
+    /// P_z until the present phase ends, if u_z changes at this rate; infinite where it never ends.
     fn phase(&self, rate: f64) -> f64 {
         if self.goal.is_infinite() {
             return if rate > 0.0 { -self.u.z / rate } else { f64::INFINITY };
         }
-        // u_z x + rate x²/2 is given back after x more.
+        // u_z x + rate x²/2 is returned after x more.
         let missing = self.goal - self.work;
         let root = self.u.z * self.u.z + 2.0 * rate * missing;
         if missing <= 0.0 {
@@ -71,19 +71,19 @@ impl Path {
         }
     }
 
-    /// Goes on along dP/dP_z = `along` until the hit ends; at most `most` in P_z.
-    fn go(&mut self, k: &DMat3, along: DVec3, e: f64, most: f64) {
+    /// Follows dP/dP_z = `along` until the impact ends, for at most `max` of P_z.
+    fn follow(&mut self, k: &DMat3, along: DVec3, e: f64, max: f64) {
         let rate = *k * along;
-        if most.is_infinite() && rate.z <= HELD * k.z_axis.z {
-            // Wedged: what could move has stopped.
+        if max.is_infinite() && rate.z <= HELD_BY_JOINTS * k.z_axis.z {
+            // Wedged: no motion is left.
             self.done = true;
         }
-        let mut left = most;
+        let mut left = max;
         while left > 0.0 && !self.done {
             let end = self.phase(rate.z);
             let part = end.min(left);
             if !part.is_finite() {
-                // Nothing on this way ends it: only rounding leads here.
+                // The phase never ends: only by rounding.
                 self.done = true;
                 return;
             }
@@ -103,80 +103,97 @@ impl Path {
     }
 }
 
-/// Impulse on the first body in the contact frame, N s.
+/// Impulse of an impact on the first body in the contact frame, N s; zero if u.z ≥ 0.
 ///
-/// `k` symmetric positive semi-definite with k_zz > 0 (1/kg), `u` relative velocity (m/s) with u.z < 0, friction
-/// coefficient `mu` ≥ 0, energetic restitution `e` in 0…1.
+/// `k` is the effective inverse mass, symmetric positive semi-definite with k_zz > 0 (1/kg), `u` the relative velocity before
+/// (m/s), `mu` ≥ 0 the friction coefficient and `e` in 0…1 the energetic restitution.
 pub fn impulse(k: &DMat3, u: DVec3, mu: f64, e: f64) -> DVec3 {
     let mut path = Path { p: DVec3::ZERO, u, work: 0.0, goal: f64::INFINITY, done: u.z >= 0.0 };
-    let still = STILL * u.z.abs().max(u.truncate().length());
-    for _ in 0..MOST_PIECES {
+    let no_slip = NO_SLIP * u.z.abs().max(u.truncate().length());
+    for _ in 0..MAX_PIECES {
         if path.done {
             break;
         }
         let slip = path.u.truncate();
         let speed = slip.length();
-        if mu == 0.0 || speed <= still {
+        if mu == 0.0 || speed <= no_slip {
             break;
         }
-        let (d, stops) = chord(k, slip / speed, speed, mu, &path);
-        path.go(k, (-mu * d).extend(1.0), e, stops);
-        if !path.done && path.u.truncate().length() <= 2.0 * still {
+        let Chord { direction, length } = chord(k, slip / speed, speed, mu, &path);
+        path.follow(k, (-mu * direction).extend(1.0), e, length);
+        if !path.done && path.u.truncate().length() <= 2.0 * no_slip {
             (path.u.x, path.u.y) = (0.0, 0.0);
         }
     }
     if !path.done {
-        path.go(k, from_rest(k, mu).0, e, f64::INFINITY);
+        path.follow(k, from_rest(k, mu).along, e, f64::INFINITY);
     }
     path.p
 }
 
-/// Direction of friction for the next piece of a slide, and how long it lasts in P_z. The direction m is that of the
-/// slip in the middle of the chord, m ∥ u_T + ½ x K_T(−μ m, 1), found as a root: where joints make K stiff, slip swings
-/// round to its ray at once, and only an implicit rule follows it with chords of sensible length.
-fn chord(k: &DMat3, d: DVec2, speed: f64, mu: f64, path: &Path) -> (DVec2, f64) {
+/// A straight piece of a sliding path.
+struct Chord {
+    /// Direction of slip that friction opposes; a unit vector.
+    direction: DVec2,
+    /// Length in P_z, N s.
+    length: f64,
+}
+
+/// The next piece of a slide. Its direction m is that of the slip in the middle of the chord, m ∥ u_T + ½ x K_T(−μ m, 1), found as a
+/// root. Where joints make K stiff, slip turns to its final direction at once, and only an implicit rule follows it with
+/// chords of reasonable length.
+fn chord(k: &DMat3, d: DVec2, speed: f64, mu: f64, path: &Path) -> Chord {
     let rate = |d: DVec2| (*k * (-mu * d).extend(1.0)).truncate();
     let first = rate(d);
     let turning = d.perp_dot(first);
     let slows = -first.dot(d);
     let stops = if slows > 0.0 { speed / slows } else { f64::INFINITY };
     if turning.abs() <= STRAIGHT * first.length() {
-        return (d, stops);
+        return Chord { direction: d, length: stops };
     }
-    // A chord never brings the slip below half, nor leads into another phase.
-    let mut long = (0.5 * stops).min(path.phase((*k * (-mu * d).extend(1.0)).z)).max(SHORTEST * path.p.z);
+    // A chord never halves the slip, nor leads into another phase.
+    let mut long = (0.5 * stops).min(path.phase((*k * (-mu * d).extend(1.0)).z)).max(MIN_CHORD * path.p.z);
     if !long.is_finite() {
         long = speed / turning.abs();
     }
-    let middle = |turn: f64| (d + d.perp() * (turn * turning.signum())).normalize_or(d);
+    let middle = |angle: f64| (d + d.perp() * (angle * turning.signum())).normalize_or(d);
     // Slip in the middle of the chord.
     let there = |m: DVec2, long: f64| d * speed + 0.5 * long * rate(m);
     let ahead = |m: DVec2, long: f64| m.perp_dot(there(m, long)) * turning.signum();
     for _ in 0..HALVINGS {
-        let far = middle(TURN);
+        let far = middle(CHORD_ANGLE);
         if ahead(far, long) <= 0.0 && far.dot(there(far, long)) > 0.5 * speed && there(far, 2.0 * long).dot(far) > 0.0 {
             break;
         }
         long *= 0.5;
     }
-    let (mut low, mut high) = (0.0, TURN);
+    let (mut low, mut high) = (0.0, CHORD_ANGLE);
     for _ in 0..HALVINGS {
         let half = 0.5 * (low + high);
         if ahead(middle(half), long) > 0.0 { low = half } else { high = half }
     }
-    (middle(high), long)
+    Chord { direction: middle(high), length: long }
 }
 
-/// dP/dP_z of a contact whose slip has come to rest, and whether it stays at rest.
-pub fn from_rest(k: &DMat3, mu: f64) -> (DVec3, bool) {
+/// How a contact without slip continues.
+#[derive(Clone, Copy, Debug)]
+pub struct ZeroSlip {
+    /// dP/dP_z.
+    pub along: DVec3,
+    /// It sticks; else slip starts.
+    pub sticks: bool,
+}
+
+/// Continuation of a contact whose slip has become zero, with the effective inverse mass `k` (1/kg) and the friction coefficient `mu`.
+pub fn from_rest(k: &DMat3, mu: f64) -> ZeroSlip {
     let stick = sticking(k);
     if stick.length() <= mu {
-        return (stick.extend(1.0), true);
+        return ZeroSlip { along: stick.extend(1.0), sticks: true };
     }
     if mu == 0.0 {
-        return (DVec3::Z, false);
+        return ZeroSlip { along: DVec3::Z, sticks: false };
     }
-    ((-mu * leaving(k, mu, stick)).extend(1.0), false)
+    ZeroSlip { along: (-mu * starting_slip(k, mu, stick)).extend(1.0), sticks: false }
 }
 
 /// s with K_TT s = −K_Tz, the shortest where joints hold a direction.
@@ -189,25 +206,25 @@ fn sticking(k: &DMat3) -> DVec2 {
     let raw = if half >= 0.0 { DVec2::new(half + radius, b) } else { DVec2::new(b, radius - half) };
     let first = raw.normalize_or(DVec2::X);
     let along = |axis: DVec2, value: f64| {
-        if value > HELD * 2.0 * mean { axis * (axis.dot(wanted) / value) } else { DVec2::ZERO }
+        if value > HELD_BY_JOINTS * 2.0 * mean { axis * (axis.dot(wanted) / value) } else { DVec2::ZERO }
     };
     along(first, mean + radius) + along(first.perp(), mean - radius)
 }
 
-/// Direction d in which slip leaves rest where friction cannot hold it: the root of d × (K_TT(−μ d) + K_Tz) along which
-/// slip grows. There is just one (Mirtich 1996), on the side of −s.
-fn leaving(k: &DMat3, mu: f64, stick: DVec2) -> DVec2 {
+/// Direction d in which slip starts where friction cannot hold it: the root of d × (K_TT(−μ d) + K_Tz) along which slip grows.
+/// There is just one (Mirtich 1996), on the side of −s.
+fn starting_slip(k: &DMat3, mu: f64, stick: DVec2) -> DVec2 {
     let rate = |d: DVec2| (*k * (-mu * d).extend(1.0)).truncate();
     let mut best = -stick.normalize_or(DVec2::X);
-    // Slip that leaves along any direction turns towards it: follow that turn in halving steps.
+    // Slip in any direction turns towards it: follow that in halving steps.
     let mut step = 0.5;
     for _ in 0..120 {
-        let turn = best.perp_dot(rate(best));
-        if turn == 0.0 {
+        let turning = best.perp_dot(rate(best));
+        if turning == 0.0 {
             break;
         }
-        let next = (best + best.perp() * (step * turn.signum())).normalize_or(best);
-        let over = next.perp_dot(rate(next)).signum() != turn.signum();
+        let next = (best + best.perp() * (step * turning.signum())).normalize_or(best);
+        let over = next.perp_dot(rate(next)).signum() != turning.signum();
         if over {
             step *= 0.5;
         } else {
@@ -226,7 +243,7 @@ mod tests {
     /// Rounding over a path.
     const EXACT: f64 = 1e-12;
 
-    /// K of a free body hit at a random place: E/m − [l]× I⁻¹ [l]×.
+    /// K of a free body with an impact at a random place: E/m − [l]× I⁻¹ [l]×.
     fn random_k(random: &mut Random) -> DMat3 {
         let l = DVec3::new(random.signed(), random.signed(), random.signed());
         let i = DVec3::new(random.range(0.1, 2.0), random.range(0.1, 2.0), random.range(0.1, 2.0)).recip();
@@ -243,7 +260,11 @@ mod tests {
         let step = u.length() / (k.z_axis.z * STEPS);
         let along = |v: DVec3| {
             let slip = v.truncate();
-            if slip.length() > 1e-3 * u.length() { (-mu * slip.normalize()).extend(1.0) } else { from_rest(k, mu).0 }
+            if slip.length() > 1e-3 * u.length() {
+                (-mu * slip.normalize()).extend(1.0)
+            } else {
+                from_rest(k, mu).along
+            }
         };
         let (mut v, mut p, mut work, mut goal) = (u, DVec3::ZERO, 0.0, f64::INFINITY);
         while work < goal {
@@ -260,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn frictionless_hits_return_with_the_restitution() {
+    fn frictionless_impacts_return_with_the_restitution() {
         for seed in 0..500 {
             let mut random = Random::new(seed);
             let k = random_k(&mut random);
@@ -311,10 +332,10 @@ mod tests {
             let mu = random.unit();
             let inverse = k.inverse();
             let wanted = inverse.z_axis.truncate().length() <= mu * inverse.z_axis.z;
-            let (along, sticks) = from_rest(&k, mu);
+            let ZeroSlip { along, sticks } = from_rest(&k, mu);
             assert_eq!(sticks, wanted, "seed {seed}");
             if !sticks {
-                // It leaves along a straight line, against friction.
+                // Slip starts along a straight line, against friction.
                 let (rate, d) = ((k * along).truncate(), -along.truncate() / mu);
                 assert!(rate.dot(d) > 0.0 && d.perp_dot(rate).abs() < EXACT * rate.length(), "seed {seed}");
                 slid += 1;
@@ -324,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn a_central_hit_with_much_friction_sticks() {
+    fn a_central_impact_with_much_friction_sticks() {
         let k = DMat3::from_diagonal(DVec3::new(3.5, 3.5, 1.0));
         let u = DVec3::new(0.2, -0.1, -1.0);
         let after = u + k * impulse(&k, u, 0.8, 0.5);

@@ -1,25 +1,25 @@
-//! What the joints carry, and how fast what hangs on them can swing.
+//! Joint loads, and the frequencies of the tension modes that they cause.
 
 use crate::articulation::{Constraint, System};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DMat3, DVec3};
 
-/// Loads of the joints of a figure.
+/// Loads of the joints of an articulation.
 #[derive(Clone)]
 pub(super) struct JointLoads {
-    /// Force that each joint carried when it was last asked, N.
+    /// Force of each joint when last recorded, N.
     loads: Vec<f64>,
     /// Stiffness of each joint's tension mode: ω² per N of load, 1/(kg m).
     tension_stiffness: Vec<f64>,
-    /// Is there friction in any pivot?
+    /// Some pivot has friction.
     pub has_friction: bool,
-    /// Does anything ask at a substep's end what the joints carry there: pivots that rub, or joints that break? Else the next
-    /// one's first stage tells, under its own forces.
+    /// Pivot friction or breaking joints need the loads at a substep's end. Else the first stage of the next substep gives them,
+    /// under its own forces.
     pub needed_at_substep_end: bool,
 }
 
 impl JointLoads {
-    /// Of joints that carry nothing yet, evaluated at the figure's start; `friction` says whether pivots may rub.
+    /// No loads, of joints that are evaluated at the start; without `friction` no pivot has any.
     pub fn new(system: &System, bodies: &[RigidBody], constraints: &[Constraint], friction: bool) -> Self {
         let has_friction = friction && constraints.iter().any(|constraint| constraint.friction.is_some());
         Self {
@@ -30,17 +30,17 @@ impl JointLoads {
         }
     }
 
-    /// Notes what the joints carry by the last solve.
+    /// Records the loads of the last solve.
     pub fn record(&mut self, system: &System) {
         system.weigh(&mut self.loads);
     }
 
-    /// Forgets it.
-    pub fn forget(&mut self) {
+    /// Sets all loads to zero.
+    pub fn clear(&mut self) {
         self.loads.fill(0.0);
     }
 
-    /// By joints, N.
+    /// Load of each joint, N.
     pub fn all(&self) -> &[f64] {
         &self.loads
     }
@@ -51,12 +51,12 @@ impl JointLoads {
         self.loads
             .iter()
             .zip(&self.tension_stiffness)
-            .fold(0.0, |most: f64, (load, stiffness)| most.max(load * stiffness))
+            .fold(0.0, |max: f64, (load, stiffness)| max.max(load * stiffness))
     }
 }
 
 /// ω² per N of load of each joint's tension mode: the greatest |r| / I⊥ of its bodies at the start, 1/(kg m). Arms and
-/// inertias turn with their body, so it stays what it is.
+/// inertias rotate with their body, so it is constant.
 fn tension_stiffness(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
     let stiffness = |body: usize, arm: DVec3| arm.length() / least_inertia_across(&bodies[body].inertia_world(), arm);
     let of_joint = |index: usize| {

@@ -1,13 +1,13 @@
-//! What the integrators do to every body, four at a time.
+//! Lane kernels: the integrators' operations on all bodies, four at a time (SIMD).
 //!
-//! Each pass goes through the quads in the tree's order and names the parts of a figure that it reads and writes. What it reads
-//! of the bodies is gathered into lanes, what it changes goes back body by body; sums over bodies are made afterwards in the
-//! bodies' own order (`norms`, by bodies), so that they do not depend on who stands beside whom.
+//! Each kernel visits the lane blocks in the tree's order and names what it reads and writes. It gathers bodies into lanes and
+//! scatters results body by body. Sums over bodies are taken afterwards in the bodies' own order (`norms`, by bodies), so that they
+//! do not depend on which bodies share a block.
 
 use fearless_simd::{Simd, dispatch};
 
-use super::forces;
-use super::substep_state::{Rate, SLOWEST, SubstepState, advance, less, norm};
+use super::forces::{self, BodyLanes};
+use super::substep_state::{Rate, SLOWEST, SubstepState, advance, difference, norm};
 use crate::articulation::System;
 use crate::articulation::ball::Twist;
 use crate::articulation::quads::{Members, Quad, State};
@@ -16,45 +16,45 @@ use soffio_math::DVec3;
 use soffio_math::lanes::{All, Four, Lanes, Real, V3};
 use soffio_math::spatial::Vec6;
 
-/// Something that is done to every quad in which somebody is awake.
+/// An operation on every lane block with a body that is awake.
 pub(super) trait LaneKernel {
-    /// Does it to the `index`th.
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize);
+    /// Runs it on the block of this index.
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize);
 }
 
-/// Does it to all quads of a system.
-pub(super) fn run_kernel(system: &mut System, mut pass: impl LaneKernel) {
-    dispatch!(system.quads().level(), simd => run_kernel_in(simd, system, &mut pass));
+/// Runs a kernel on all lane blocks of a system.
+pub(super) fn run_kernel(system: &mut System, mut kernel: impl LaneKernel) {
+    dispatch!(system.quads().level(), simd => run_kernel_in(simd, system, &mut kernel));
 }
 
 #[inline(always)]
-fn run_kernel_in<S: Simd>(simd: S, system: &mut System, pass: &mut impl LaneKernel) {
+fn run_kernel_in<S: Simd>(simd: S, system: &mut System, kernel: &mut impl LaneKernel) {
     for k in 0..system.quads().moving().len() {
         let index = system.quads().moving()[k];
-        pass.go(All(simd), system, index);
+        kernel.run(All(simd), system, index);
     }
 }
 
-/// A quad, and who it is.
+/// A lane block, and which bodies it holds.
 #[inline(always)]
 pub(super) fn quad(system: &System, index: usize) -> (Members, &Quad) {
     let quads = system.quads();
     (quads.members()[index], &quads.all()[index])
 }
 
-/// The accelerations found last.
+/// The last accelerations of a block.
 #[inline(always)]
 pub(super) fn accelerations<L: Lanes>(lanes: L, system: &System, members: &Members) -> Twist<L::T> {
     Twist::gather(lanes, |k| &system.a[members.bodies[k]])
 }
 
-/// Puts bodies into this state.
+/// Sets the state of a block.
 #[inline(always)]
 pub(super) fn put<L: Lanes>(lanes: L, system: &mut System, index: usize, state: &State<L::T>) {
     system.quads_mut().all_mut()[index].put(lanes, state);
 }
 
-/// Notes where the bodies are: a substep begins.
+/// Saves the bodies' state at the start of a substep.
 pub(super) struct Save<'a> {
     pub bodies: &'a [RigidBody],
     pub states: &'a mut [SubstepState],
@@ -62,14 +62,14 @@ pub(super) struct Save<'a> {
 
 impl LaneKernel for Save<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let state = State::of(lanes, |k| &self.bodies[members.bodies[k]]);
         self.states[index].start.set(lanes, &state);
     }
 }
 
-/// Puts the bodies back to where the substep began.
+/// Restores the bodies' state at the start of the substep.
 pub(super) struct Restore<'a> {
     pub bodies: &'a mut [RigidBody],
     pub states: &'a [SubstepState],
@@ -77,35 +77,35 @@ pub(super) struct Restore<'a> {
 
 impl LaneKernel for Restore<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let state = self.states[index].start.get(lanes);
         state.put(lanes, &members, self.bodies);
     }
 }
 
-/// Lets the bodies be where the quads are.
+/// Writes the blocks' state back to the bodies.
 pub(super) struct WriteBack<'a> {
     pub bodies: &'a mut [RigidBody],
 }
 
 impl LaneKernel for WriteBack<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let state = quad.state.get(lanes);
         state.put(lanes, &members, self.bodies);
     }
 }
 
-/// Adds the change of velocities found last; the bodies follow.
+/// Adds the last change of velocities to blocks and bodies.
 pub(super) struct AddVelocityChange<'a> {
     pub bodies: &'a mut [RigidBody],
 }
 
 impl LaneKernel for AddVelocityChange<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let by = accelerations(lanes, system, &members);
         let mut state = quad.state.get(lanes);
@@ -118,8 +118,8 @@ impl LaneKernel for AddVelocityChange<'_> {
     }
 }
 
-/// From one Runge–Kutta stage to the next: takes the rate at this one, of this weight, and goes on with it from the
-/// start over `h`.
+/// From one Runge–Kutta stage to the next: adds the rate of this one with its weight, and advances from the start by it over
+/// `h`.
 pub(super) struct Stage<'a> {
     pub states: &'a mut [SubstepState],
     pub first: bool,
@@ -129,7 +129,7 @@ pub(super) struct Stage<'a> {
 
 impl LaneKernel for Stage<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let a = accelerations(lanes, system, &members);
         let substep = &self.states[index];
@@ -137,90 +137,92 @@ impl LaneKernel for Stage<'_> {
         let (rate, mut mean) = if self.first {
             let zero = start.velocity.x.all(0.0);
             let none = V3 { x: zero, y: zero, z: zero };
-            let mean = Rate { velocity: none, turn: none, acceleration: Twist { linear: none, angular: none } };
+            let mean = Rate { velocity: none, sigma: none, acceleration: Twist { linear: none, angular: none } };
             (Rate::of(start.velocity, start.spin, none, a), mean)
         } else {
             let (velocity, spin) = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
-            (Rate::of(velocity, spin, substep.turned.get(lanes), a), substep.mean.get(lanes))
+            (Rate::of(velocity, spin, substep.sigma.get(lanes), a), substep.mean.get(lanes))
         };
         mean.add(self.weight, &rate);
-        let (state, turned) = advance(lanes, &start, self.h, &rate);
+        let (state, sigma) = advance(lanes, &start, self.h, &rate);
         let substep = &mut self.states[index];
         if self.first {
-            substep.begun.put(lanes, &a);
+            substep.start_acceleration.put(lanes, &a);
         }
         substep.mean.set(lanes, &mean);
-        substep.turned.put(lanes, turned);
+        substep.sigma.put(lanes, sigma);
         put(lanes, system, index, &state);
     }
 }
 
-/// From the last Runge–Kutta stage to the end of the substep of `h`.
+/// From the last Runge–Kutta stage to the end of the substep.
 pub(super) struct Last<'a> {
     pub states: &'a mut [SubstepState],
     pub h: f64,
-    /// Of the last rate.
+    /// Weight of the last rate.
     pub weight: f64,
 }
 
 impl LaneKernel for Last<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let a = accelerations(lanes, system, &members);
         let substep = &self.states[index];
-        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), substep.turned.get(lanes), a);
+        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), substep.sigma.get(lanes), a);
         let mut mean = substep.mean.get(lanes);
         mean.add(self.weight, &rate);
         let (state, _) = advance(lanes, &substep.start.get(lanes), self.h, &mean);
-        self.states[index].last.put(lanes, &a);
+        self.states[index].last_acceleration.put(lanes, &a);
         put(lanes, system, index, &state);
     }
 }
 
-/// What the new rate says of the error (`integrate.rs`): each body's share of the two sums.
+/// Error estimate by the new rate (`integrate.rs`): each body's terms of the two sums.
 pub(super) struct Estimate<'a> {
     pub states: &'a mut [SubstepState],
     pub norms: &'a mut [[f64; 2]],
+    /// 1/h³.
     pub per_cube: f64,
-    pub spread: f64,
-    /// Was there a substep before?
-    pub before: bool,
-    /// Where the change since the substep began goes.
-    pub slot: usize,
+    /// h⁵/(6 h').
+    pub scale: f64,
+    /// There was a substep before.
+    pub has_previous: bool,
+    /// Index of the substep's difference.
+    pub index: usize,
 }
 
 impl LaneKernel for Estimate<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
         let a = accelerations(lanes, system, &members);
         let substep = &self.states[index];
-        let (last, before) = (substep.last.get(lanes), substep.fourth.get(lanes));
-        let (per_cube, spread) = (mass.all(self.per_cube), mass.all(self.spread));
-        let fourth =
+        let (last, previous) = (substep.last_acceleration.get(lanes), substep.previous_estimate.get(lanes));
+        let (per_cube, factor) = (mass.all(self.per_cube), mass.all(self.scale));
+        let estimate =
             Twist { linear: (a.linear - last.linear) * per_cube, angular: (a.angular - last.angular) * per_cube };
-        let mut change = fourth;
-        if self.before {
-            change.linear -= before.linear;
-            change.angular -= before.angular;
+        let mut change = estimate;
+        if self.has_previous {
+            change.linear -= previous.linear;
+            change.angular -= previous.angular;
         }
-        change = Twist { linear: change.linear * spread, angular: change.angular * spread };
+        change = Twist { linear: change.linear * factor, angular: change.angular * factor };
         let now = Twist { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) };
         let error = norm(mass, &inertia, &change);
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
-        let changed = less(a, substep.begun.get(lanes));
+        let changed = difference(a, substep.start_acceleration.get(lanes));
         let substep = &mut self.states[index];
-        substep.differences[self.slot].put(lanes, &changed);
-        substep.fourth.put(lanes, &fourth);
+        substep.differences[self.index].put(lanes, &changed);
+        substep.previous_estimate.put(lanes, &estimate);
         let norms = &mut *self.norms;
         lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
     }
 }
 
-/// Gravity, damping, the gyroscopic torque and what comes from outside.
+/// Sets the right-hand side: gravity, damping, the gyroscopic torque and external wrenches.
 pub(super) struct ApplyForces<'a> {
     pub external: &'a [Vec6],
     pub damping: &'a [[Four; 2]],
@@ -229,51 +231,56 @@ pub(super) struct ApplyForces<'a> {
 
 impl LaneKernel for ApplyForces<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let external = Twist::gather(lanes, |k| &self.external[members.bodies[k]]);
         let [linear, angular] = self.damping[index].each_ref().map(|rate| lanes.get(rate));
-        let motion = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
-        let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let own = forces::on_body((mass, &inertia), motion, self.gravity, (linear, angular));
-        let push = Twist { linear: own.linear + external.linear, angular: own.angular + external.angular };
+        let bodies = BodyLanes {
+            mass: lanes.get(&quad.mass),
+            inertia: quad.inertia.get(lanes),
+            velocity: Twist { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) },
+            linear_damping: linear,
+            angular_damping: angular,
+        };
+        let own = forces::body_wrench(&bodies, self.gravity);
+        let total = Twist { linear: own.linear + external.linear, angular: own.angular + external.angular };
         let b = &mut system.b;
-        lanes.scatter(members.count, &push.numbers(), |lane, push| b[members.bodies[lane]] = *push);
+        lanes.scatter(members.count, &total.numbers(), |lane, wrench| b[members.bodies[lane]] = *wrench);
     }
 }
 
-/// Rates of the Gauss–Legendre stages, by quads.
+/// Rates of the three Gauss–Legendre stages, by lane blocks.
 pub(super) type Stages = [Vec<Rate<Four>>; 3];
 
-/// The first guess of the three Gauss rates of a substep of `h`.
+/// The initial guess of the three Gauss–Legendre rates.
 pub(super) struct Guess<'a> {
     pub states: &'a [SubstepState],
     pub stages: &'a mut Stages,
     pub h: f64,
-    /// Shares of the substep at which the rates are taken.
+    /// Fractions of the substep at which the rates are taken.
     pub nodes: [f64; 3],
 }
 
 impl LaneKernel for Guess<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, _) = quad(system, index);
         let a = accelerations(lanes, system, &members);
         let start = self.states[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let rate = Rate::of(start.velocity, start.spin, V3 { x: zero, y: zero, z: zero }, a);
-        // A body's velocity changes as its acceleration says, which is the better first guess.
+        // The velocity is extrapolated by the acceleration, which is a better guess than a constant.
         for (rates, node) in self.stages.iter_mut().zip(self.nodes) {
             let ahead = zero.all(node * self.h);
             let mut guess = rate;
             guess.velocity += a.linear * ahead;
-            guess.turn += a.angular * ahead;
+            guess.sigma += a.angular * ahead;
             rates[index].set(lanes, &guess);
         }
     }
 }
 
-/// From the start over `h` by these shares of the three Gauss rates.
+/// From the start over `h` by a weighted sum of the three Gauss–Legendre rates.
 pub(super) struct Mean<'a> {
     pub states: &'a mut [SubstepState],
     pub stages: &'a Stages,
@@ -283,21 +290,21 @@ pub(super) struct Mean<'a> {
 
 impl LaneKernel for Mean<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let start = self.states[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let none = V3 { x: zero, y: zero, z: zero };
-        let mut mean = Rate { velocity: none, turn: none, acceleration: Twist { linear: none, angular: none } };
+        let mut mean = Rate { velocity: none, sigma: none, acceleration: Twist { linear: none, angular: none } };
         for (rates, weight) in self.stages.iter().zip(self.weights) {
             mean.add(weight, &rates[index].get(lanes));
         }
-        let (state, turned) = advance(lanes, &start, self.h, &mean);
-        self.states[index].turned.put(lanes, turned);
+        let (state, sigma) = advance(lanes, &start, self.h, &mean);
+        self.states[index].sigma.put(lanes, sigma);
         put(lanes, system, index, &state);
     }
 }
 
-/// Takes over the rate of a Gauss stage: by how much it changed and how large it is, in squares.
+/// Takes over the rate of a Gauss–Legendre stage, with the squares of its change and of its size.
 pub(super) struct Compare<'a> {
     pub states: &'a [SubstepState],
     pub stages: &'a mut Stages,
@@ -307,16 +314,16 @@ pub(super) struct Compare<'a> {
 
 impl LaneKernel for Compare<'_> {
     #[inline(always)]
-    fn go<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
+    fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
         let a = accelerations(lanes, system, &members);
-        let turned = self.states[index].turned.get(lanes);
-        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), turned, a);
+        let sigma = self.states[index].sigma.get(lanes);
+        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), sigma, a);
         let old = self.stages[self.stage][index].get(lanes);
         let (linear, angular) = (a.linear - old.acceleration.linear, a.angular - old.acceleration.angular);
-        let turn = rate.turn - old.turn;
-        let change = linear.dot(linear) + angular.dot(angular) + turn.dot(turn);
-        let size = a.linear.dot(a.linear) + a.angular.dot(a.angular) + rate.turn.dot(rate.turn);
+        let sigma_change = rate.sigma - old.sigma;
+        let change = linear.dot(linear) + angular.dot(angular) + sigma_change.dot(sigma_change);
+        let size = a.linear.dot(a.linear) + a.angular.dot(a.angular) + rate.sigma.dot(rate.sigma);
         self.stages[self.stage][index].set(lanes, &rate);
         let norms = &mut *self.norms;
         lanes.scatter(members.count, &[change, size], |lane, norm| norms[members.bodies[lane]] = *norm);

@@ -1,7 +1,7 @@
-//! Limits: scalar bounds C ≥ 0 on the figure, reached like a contact and held like one.
+//! Joint limits: unilateral constraints C ≥ 0 on an articulation, which act like contacts.
 //!
-//! Each limit has one bound or two. A bound knows its value C (rad or m), its row J with Ċ = J v, and whether it
-//! rests. With T, N axes of two bodies, p, q points, r, s their arms, e = (p − q)/|p − q|, φ a turn, w a way:
+//! Each limit has one bound or two. A bound has a value C (rad or m), a row J with Ċ = J v, and may be in resting contact.
+//! With T, N axes of two bodies, p, q points, r, s their arms, e = (p − q)/|p − q|, φ an angle, w a displacement:
 //!
 //! ```text
 //! tilt       C = max − ∠(T, N)            J = −(0, a), (0, a)             a = N×T/|N×T|: ∠ grows by a·(ω_T − ω_N)
@@ -12,8 +12,8 @@
 //! play       C = b/2 ± (c₁ q₁ + c₂ q₂)    J = ±(c₁ J₁ + c₂ J₂)            either flank of a tooth
 //! ```
 //!
-//! Turns and ways are those of couplings (`rows/coupling.rs`): angles about an axis are told apart from their full turns
-//! by following them, and each substep turns by less than π.
+//! Angles and displacements are those of couplings (`rows/coupling.rs`). Full turns are counted by following an angle, which
+//! changes by less than π in each substep.
 
 use crate::articulation::rows::coupling::{Gauge, Poses, aim, place};
 use crate::articulation::{Limit, LimitKind, Measure};
@@ -24,18 +24,18 @@ use soffio_math::{DVec3, Pose, acos};
 
 use super::contacts::JacobianRow;
 
-/// What approaches no faster than this does so by rounding, m/s or rad/s.
-const ROUNDED: f64 = 1e-15;
-/// Rounds of the search for the time at which a bound is reached: bisection to a millionth of a substep.
-const HALVINGS: usize = 20;
-/// Distances and tilts smaller than this have no direction, m and rad.
-const NO_DIRECTION: f64 = 1e-9;
+/// A slower approach than this is rounding, m/s or rad/s.
+const ROUNDING: f64 = 1e-15;
+/// Bisections for the time at which a bound is reached: to a millionth of a substep.
+const BISECTIONS: usize = 20;
+/// A ratchet's tooth counts as passed within this fraction of a pitch: rounding.
+const AT_TOOTH: f64 = 1e-9;
 
-/// Which end of a limit a bound is.
+/// Which end of a limit's range a bound is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum End {
-    Least,
-    Most,
+    Min,
+    Max,
 }
 
 /// One bound and its state.
@@ -43,19 +43,30 @@ enum End {
 struct Bound {
     limit: usize,
     end: End,
-    resting: bool,
-    /// Time of its last hit, s.
-    last_hit: f64,
+    is_resting: bool,
+    /// Time of its last impact, s.
+    last_impact: f64,
 }
 
-/// All limits of a figure.
+/// The state of an articulation at a bound.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoundRow {
+    /// C: distance from the bound, rad or m; negative beyond it.
+    pub gap: f64,
+    /// J.
+    pub row: JacobianRow,
+    /// World point where it acts, for events, m.
+    pub point: DVec3,
+}
+
+/// All limits of an articulation.
 #[derive(Clone, Debug)]
 pub(super) struct Limits {
     limits: Vec<Limit>,
     gauges: Vec<[Option<Gauge>; 2]>,
-    /// Greatest value of each ratchet so far.
-    most: Vec<f64>,
-    /// Whether what each limit is between sleeps.
+    /// Greatest value of each ratchet so far, rad.
+    greatest: Vec<f64>,
+    /// Whether a body of each limit sleeps.
     asleep: Vec<bool>,
     bounds: Vec<Bound>,
 }
@@ -67,20 +78,20 @@ impl Poses for (&[Sweep], f64) {
 }
 
 impl Limits {
-    /// The limits of a figure that starts like this.
+    /// The limits of bodies in their start state.
     pub fn new(limits: &[Limit], bodies: &[RigidBody]) -> Self {
         let mut bounds = Vec::new();
         for (limit, Limit { kind, .. }) in limits.iter().enumerate() {
-            let (least, most) = match *kind {
+            let (has_min, has_max) = match *kind {
                 LimitKind::Tilt { .. } => (false, true),
                 LimitKind::Range { min, max, .. } => (min.is_finite(), max.is_finite()),
                 LimitKind::Distance { min, max, .. } => (min > 0.0, max.is_finite()),
                 LimitKind::Ratchet { .. } => (true, false),
                 LimitKind::Play { .. } => (true, true),
             };
-            for (end, there) in [(End::Least, least), (End::Most, most)] {
+            for (end, there) in [(End::Min, has_min), (End::Max, has_max)] {
                 if there {
-                    bounds.push(Bound { limit, end, resting: false, last_hit: f64::NEG_INFINITY });
+                    bounds.push(Bound { limit, end, is_resting: false, last_impact: f64::NEG_INFINITY });
                 }
             }
         }
@@ -92,60 +103,60 @@ impl Limits {
         };
         Self {
             gauges: limits.iter().map(gauges).collect(),
-            most: vec![0.0; limits.len()],
+            greatest: vec![0.0; limits.len()],
             asleep: vec![false; limits.len()],
             limits: limits.to_vec(),
             bounds,
         }
     }
 
-    /// How many bounds there are.
+    /// Number of bounds.
     pub fn count(&self) -> usize {
         self.bounds.len()
     }
 
-    /// Follows turns and ways, and lets pawls fall behind the teeth that have passed.
+    /// Counts full turns up to this state, and lets pawls drop behind the teeth that have passed.
     pub fn follow(&mut self, bodies: &[RigidBody]) {
-        let all = self.gauges.iter_mut().zip(&mut self.most).zip(&self.asleep);
-        for ((gauges, most), _) in all.filter(|(_, asleep)| !**asleep) {
+        let all = self.gauges.iter_mut().zip(&mut self.greatest).zip(&self.asleep);
+        for ((gauges, greatest), _) in all.filter(|(_, asleep)| !**asleep) {
             gauges.iter_mut().flatten().for_each(|gauge| gauge.count(bodies));
             if let Some(first) = &gauges[0] {
-                *most = most.max(first.total(bodies));
+                *greatest = greatest.max(first.total(bodies));
             }
         }
     }
 
-    /// Forgets all rest; turns are those nearest to the ones before.
-    pub fn forget(&mut self, bodies: &[RigidBody]) {
-        self.bounds.iter_mut().for_each(|bound| bound.resting = false);
+    /// Ends all resting contact, for bodies that were moved; angles continue from the nearest ones.
+    pub fn restart(&mut self, bodies: &[RigidBody]) {
+        self.bounds.iter_mut().for_each(|bound| bound.is_resting = false);
         self.follow(bodies);
     }
 
-    /// Leaves out what is between bodies that sleep.
-    pub fn let_sleep(&mut self, asleep: &[bool]) {
+    /// Sets which bodies sleep; their limits are left out.
+    pub fn set_asleep(&mut self, asleep: &[bool]) {
         for (sleeps, limit) in self.asleep.iter_mut().zip(&self.limits) {
             *sleeps = asleep.iter().enumerate().any(|(body, asleep)| *asleep && limit.kind.touches(body));
         }
     }
 
-    /// Is a bound left out?
-    pub fn sleeps(&self, bound: usize) -> bool {
+    /// Whether a body of a bound sleeps.
+    pub fn is_asleep(&self, bound: usize) -> bool {
         self.asleep[self.bounds[bound].limit]
     }
 
-    /// Does a bound rest?
-    pub fn resting(&self, bound: usize) -> bool {
-        self.bounds[bound].resting
+    /// Whether a bound is in resting contact.
+    pub fn is_resting(&self, bound: usize) -> bool {
+        self.bounds[bound].is_resting
     }
 
-    /// Sets whether a bound rests.
-    pub fn set_resting(&mut self, bound: usize, rests: bool) {
-        self.bounds[bound].resting = rests;
+    /// Sets whether a bound is in resting contact.
+    pub fn set_resting(&mut self, bound: usize, is_resting: bool) {
+        self.bounds[bound].is_resting = is_resting;
     }
 
-    /// Time of a bound's last hit, s.
-    pub fn last_hit(&mut self, bound: usize) -> &mut f64 {
-        &mut self.bounds[bound].last_hit
+    /// Time of a bound's last impact, s.
+    pub fn last_impact(&mut self, bound: usize) -> &mut f64 {
+        &mut self.bounds[bound].last_impact
     }
 
     /// Coefficient of restitution of a bound.
@@ -153,12 +164,12 @@ impl Limits {
         self.limits[self.bounds[bound].limit].restitution
     }
 
-    /// The two bodies of a bound.
+    /// The two bodies of a bound; `None` is the world.
     pub fn bodies(&self, bound: usize) -> [Option<usize>; 2] {
         self.limits[self.bounds[bound].limit].kind.bodies()
     }
 
-    /// What is left to a bound, rad or m; negative beyond it.
+    /// Distance from a bound, rad or m; negative beyond it.
     pub fn gap(&self, bound: usize, bodies: &[RigidBody]) -> f64 {
         self.value(bound, bodies)
     }
@@ -178,15 +189,15 @@ impl Limits {
             }
             LimitKind::Ratchet { pitch, .. } => {
                 let value = self.read(limit, 0, poses);
-                let most = self.most[limit].max(value);
+                let greatest = self.greatest[limit].max(value);
                 // A tooth counts as passed where it is reached, within rounding.
-                let floor = if *pitch > 0.0 { pitch * (most / pitch + NO_DIRECTION).floor() } else { most };
+                let floor = if *pitch > 0.0 { pitch * (greatest / pitch + AT_TOOTH).floor() } else { greatest };
                 (value, floor, f64::INFINITY)
             }
         };
         match end {
-            End::Least => value - min,
-            End::Most => max - value,
+            End::Min => value - min,
+            End::Max => max - value,
         }
     }
 
@@ -194,12 +205,12 @@ impl Limits {
         self.gauges[limit][gauge].as_ref().map_or(0.0, |gauge| gauge.total(poses))
     }
 
-    /// What is left to a bound, its row, and where it acts.
-    pub fn row(&self, bound: usize, bodies: &[RigidBody]) -> (f64, JacobianRow, DVec3) {
+    /// Value, row and point of a bound.
+    pub fn row(&self, bound: usize, bodies: &[RigidBody]) -> BoundRow {
         let Bound { limit, end, .. } = self.bounds[bound];
         let sign = match end {
-            End::Least => 1.0,
-            End::Most => -1.0,
+            End::Min => 1.0,
+            End::Max => -1.0,
         };
         let two = self.bodies(bound);
         let middle = |body: Option<usize>| body.map_or(DVec3::ZERO, |i| bodies[i].position);
@@ -234,7 +245,7 @@ impl Limits {
                 0.5 * (middle(two[0]) + middle(two[1]))
             }
         };
-        (self.value(bound, bodies), row, point)
+        BoundRow { gap: self.value(bound, bodies), row, point }
     }
 
     /// Adds `scale` times the row of a gauge.
@@ -245,12 +256,12 @@ impl Limits {
         row.add(second, scale, &against);
     }
 
-    /// Is a bound reached, and passed at more than `speed`?
+    /// Whether a bound is within `layer` (rad or m) and approached faster than `speed`.
     pub fn approaches(&self, bound: usize, bodies: &[RigidBody], layer: f64, speed: f64) -> bool {
-        self.value(bound, bodies) <= layer && self.row(bound, bodies).1.rate(bodies) < -speed
+        self.value(bound, bodies) <= layer && self.row(bound, bodies).row.rate(bodies) < -speed
     }
 
-    /// The share of a substep at which a bound is reached.
+    /// The fraction of a substep after which a bound is reached.
     pub fn crossing(&self, bound: usize, before: &[RigidBody], after: &[RigidBody], sweeps: &[Sweep]) -> Option<f64> {
         let end = self.value(bound, after);
         if end > 0.0 {
@@ -258,17 +269,17 @@ impl Limits {
         }
         let start = self.value(bound, before);
         if start <= TOUCH {
-            let rate = |bodies: &[RigidBody]| self.row(bound, bodies).1.rate(bodies);
-            if rate(before) < -ROUNDED {
+            let rate = |bodies: &[RigidBody]| self.row(bound, bodies).row.rate(bodies);
+            if rate(before) < -ROUNDING {
                 return Some(0.0);
             }
-            // Opens at first: reached again on the way only if it has come back.
-            if end >= start || rate(after) >= -ROUNDED {
+            // Opens at first: reached within the substep only if it returns.
+            if end >= start || rate(after) >= -ROUNDING {
                 return None;
             }
         }
         let (mut open, mut closed) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
+        for _ in 0..BISECTIONS {
             let middle = 0.5 * (open + closed);
             if self.value(bound, &(sweeps, middle)) > 0.0 { open = middle } else { closed = middle }
         }

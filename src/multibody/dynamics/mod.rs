@@ -1,7 +1,7 @@
-//! Motion by the laws: Lagrange multipliers, integration, friction of pivots, impacts.
+//! Constrained dynamics: Lagrange multipliers, integration, pivot friction, contact and impacts.
 //!
-//! One step is: integrate the constrained equations of motion by a method of fourth order (Adams' where motion is smooth, else
-//! Runge–Kutta's), close what the joints drifted apart (projection), stop at each impact on the way, and let pivot friction act.
+//! A step integrates the constrained equations of motion by a method of fourth order: Adams–Bashforth–Moulton where motion is
+//! smooth, else Runge–Kutta. Projection then closes the joints, substeps end at impacts, and pivot friction acts.
 //!
 //! Symbols as in `articulation`: C constraint value, J its Jacobian, λ multipliers. Accelerations solve
 //!
@@ -9,8 +9,8 @@
 //! M a − Jᵀ λ = F        J a = −J̇ẋ − ω₀² C − 2 ω₀ Ċ
 //! ```
 //!
-//! The last two terms (Baumgarte 1972, critically damped) draw a scattered figure together and vanish once it is;
-//! from then on projection keeps the joints closed to rounding.
+//! The last two terms are Baumgarte's stabilisation (1972), critically damped. They close the joints of a scattered articulation
+//! and vanish once it is closed; from then on projection keeps the joints closed to rounding.
 
 mod adams;
 mod build;

@@ -1,6 +1,7 @@
-//! A figure that something else than the laws moves for a step: what such a mover needs, and what is put in order around
-//! it. Windows, triggers, springs, turns and bad numbers go on as in a step of the laws, so that either kind of step may
-//! follow the other.
+//! Position-based steps: steps that a position-based mover integrates instead of constrained dynamics.
+//!
+//! Activation windows, triggers, springs, full turns and recovery work as in a step of constrained dynamics, so either kind of step
+//! may follow the other.
 
 use super::contacts::{Contacts, Impact};
 use super::kinematic::KinematicBody;
@@ -10,34 +11,33 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::spatial::Vec6;
 
-/// A figure at the beginning of a step, in a mover's hands.
+/// An articulation at the beginning of a position-based step.
 pub struct PositionStep<'a> {
-    /// To be left where the step ends, with their velocities.
+    /// The bodies; the mover sets their poses and velocities at the end of the step.
     pub bodies: &'a mut [RigidBody],
-    /// The joints; shares are those of the step's middle.
+    /// The joints, with their activation in the middle of the step.
     pub system: &'a mut System,
-    /// What can touch, and the limits.
+    /// Surfaces and limits.
     pub contacts: &'a mut Contacts,
-    /// Bodies that follow a given motion.
+    /// Kinematic bodies, which the mover moves too.
     pub kinematic_bodies: &'a [KinematicBody],
-    /// From outside and from springs, N and N m about each centre of mass.
+    /// External wrenches and those of springs, N and N m about each centre of mass.
     pub wrenches: &'a [Vec6],
     /// World acceleration, m/s².
     pub gravity: DVec3,
-    /// Time constant in which what is open is drawn together, s.
+    /// Time constant in which open joints close, s.
     pub stabilization_time: f64,
-    /// When the step ends, seconds since reset.
-    pub until: f64,
-    /// Did the share of any constraint change since the last step?
-    pub changed: bool,
-    /// What the mover has to tell.
+    /// End of the step, seconds since reset.
+    pub end_time: f64,
+    /// The activation of some constraint has changed since the last step.
+    pub activation_changed: bool,
+    /// The mover appends its impacts.
     pub impacts: &'a mut Vec<Impact>,
 }
 
 impl Dynamics {
-    /// A step of `dt` seconds by another mover, under wrenches from outside (N and N m about each centre of mass). Hits
-    /// are appended to `impacts`. Returns the first body with bad numbers, before or after, because of which the figure was put
-    /// back.
+    /// Advances by `dt` seconds by a position-based mover, under external wrenches (N and N m about each centre of mass). Appends the
+    /// impacts to `impacts`. Returns the first body with invalid numbers, before or after, because of which all bodies were put back.
     pub fn position_step(
         &mut self,
         dt: f64,
@@ -46,14 +46,15 @@ impl Dynamics {
         mover: impl FnOnce(PositionStep),
     ) -> Option<usize> {
         self.wake_all();
-        let bad = self.recover_bad_bodies();
+        let invalid = self.recover();
         self.begin_step(dt);
         self.substeps = 1;
         let middle = self.time + 0.5 * dt;
         let equations = &mut self.equations;
-        let changed = equations.system.activity.set_shares(middle) | equations.springs.activity.set_shares(middle);
+        let activation_changed =
+            equations.system.activity.set_shares(middle) | equations.springs.activity.set_shares(middle);
         equations.wrenches.total.copy_from_slice(external);
-        equations.springs.push(&self.bodies, self.time, &mut equations.wrenches.total);
+        equations.springs.add_forces(&self.bodies, self.time, &mut equations.wrenches.total);
         let already = impacts.len();
         if let Some(without_trains) = &mut equations.without_trains {
             without_trains.exchange_run(&mut equations.system);
@@ -66,8 +67,8 @@ impl Dynamics {
             wrenches: &equations.wrenches.total,
             gravity: self.settings.gravity,
             stabilization_time: self.settings.stabilization_time,
-            until: self.time + dt,
-            changed,
+            end_time: self.time + dt,
+            activation_changed,
             impacts,
         });
         if let Some(without_trains) = &mut equations.without_trains {
@@ -76,6 +77,6 @@ impl Dynamics {
         equations.springs.break_overloaded(&self.bodies, self.time + dt);
         let lost = self.end_step(dt, already, impacts);
         self.restart();
-        bad.or(lost)
+        invalid.or(lost)
     }
 }

@@ -1,4 +1,4 @@
-//! What a figure tells of its last step and of where it stands.
+//! Queries of the present state and of the last step.
 
 use super::contacts::{ContactReport, Contacts};
 use super::forces::{self, Damping};
@@ -17,12 +17,12 @@ impl Dynamics {
         &self.equations.springs.activity.breaks
     }
 
-    /// Constraints whose triggers fired in the last step, and when (seconds since reset).
+    /// Constraints whose triggers fired in the last step, each with the time, seconds since reset.
     pub fn fired(&self) -> &[(usize, f64)] {
         &self.equations.system.activity.fired
     }
 
-    /// The same of springs.
+    /// Springs whose triggers fired in the last step, each with the time, seconds since reset.
     pub fn springs_fired(&self) -> &[(usize, f64)] {
         &self.equations.springs.activity.fired
     }
@@ -32,38 +32,38 @@ impl Dynamics {
         self.time
     }
 
-    /// Damping of a body.
+    /// Damping rates of a body.
     pub fn damping(&self, body: usize) -> Damping {
         self.equations.damping(body)
     }
 
-    /// Bodies that follow a given motion.
+    /// Bodies whose motion is given.
     pub fn kinematic_bodies(&self) -> &[KinematicBody] {
         &self.equations.kinematic_bodies
     }
 
-    /// What can touch, and the limits.
+    /// Surfaces, limits and clutches.
     pub fn contacts(&self) -> &Contacts {
         &self.contacts
     }
 
-    /// The joints' system, for reports.
+    /// The joints' system.
     pub fn system(&self) -> &System {
         &self.equations.system
     }
 
-    /// The same row by row: what a mover by places is given.
+    /// The joints' system with trains as single joints, as position-based motion uses it.
     pub fn system_without_trains(&self) -> &System {
         self.equations.without_trains.as_deref().unwrap_or(&self.equations.system)
     }
 
-    /// Largest distance between the two points of any joint now, m.
+    /// Largest distance between the two points of any joint, m.
     pub fn joint_error(&self) -> f64 {
         self.equations.system.largest_gap(&self.bodies)
     }
 
-    /// The force that the joint of each constraint carried when it was last asked, in the last substep, all lengths between its
-    /// two bodies together, N; `None` for what no joint holds, such as couplings. Of joints of trains it is 0: nobody asks.
+    /// Force of the joint of each constraint when last evaluated in the last substep, N: all constraints between the same two
+    /// bodies have one joint. `None` for couplings; 0 for joints of trains.
     pub fn joint_loads(&self) -> Vec<Option<f64>> {
         let mut loads = vec![None; self.equations.system.constraints().len()];
         for (joint, load) in self.equations.system.joints().iter().zip(self.loads.all()) {
@@ -72,32 +72,33 @@ impl Dynamics {
         loads
     }
 
-    /// Kinetic and potential energy, J.
+    /// Kinetic and potential energy, springs included, J.
     pub fn energy(&self) -> f64 {
-        forces::energy(&self.bodies, self.settings.gravity) + self.equations.springs.energy(&self.bodies, self.time)
+        forces::mechanical_energy(&self.bodies, self.settings.gravity)
+            + self.equations.springs.energy(&self.bodies, self.time)
     }
 
-    /// Work of all hits, resting contacts and limits since the start, J: what friction and bounce lost, negative.
+    /// Work of all impacts, resting contacts and limits since the start, J; losses make it negative.
     pub fn contact_work(&self) -> f64 {
         self.contacts.work()
     }
 
-    /// Surfaces that press on each other at the end of the last step.
+    /// Contact points with a force at the end of the last step.
     pub fn contact_reports(&self) -> impl Iterator<Item = ContactReport> + '_ {
         self.contacts.contact_reports(&self.bodies)
     }
 
-    /// Pairs of colliders that the last step measured: those whose swept boxes overlapped, once a substep each.
+    /// Number of pairs of colliders that the narrow phase measured in the last step, counted in each substep.
     pub fn measured_pairs(&self) -> usize {
         self.contacts.measured()
     }
 
-    /// Substeps of the last step.
+    /// Number of substeps of the last step.
     pub fn substeps(&self) -> u32 {
         self.substeps
     }
 
-    /// Operations of the last step, about: the same on every machine (`budget.rs`).
+    /// Operations of the last step, about; the same on every machine (`work_budget.rs`).
     pub fn operations(&self) -> u64 {
         self.budget.spent()
     }

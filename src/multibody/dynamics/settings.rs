@@ -1,4 +1,4 @@
-//! What a figure is made of, and by what rules it moves.
+//! Description of an articulation, and settings of its motion.
 
 pub use crate::articulation::Method as Solver;
 use crate::articulation::{Constraint, Limit, Spring};
@@ -10,52 +10,52 @@ use super::contacts::SurfacePair;
 use super::forces::Damping;
 use super::kinematic::KinematicBody;
 
-/// How time is advanced.
+/// Numerical integrator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Integrator {
-    /// Precise where that costs next to nothing (few bodies, no contact), else Adams' method of fourth order where motion is smooth,
-    /// else Runge–Kutta.
+    /// Gauss–Legendre for a few bodies without contacts, else Adams–Bashforth–Moulton (fourth order) where motion is smooth, else
+    /// Runge–Kutta.
     #[default]
     Auto,
-    /// Semi-implicit Euler with projection: one solve a step, first order.
+    /// Semi-implicit Euler with projection: first order, one solve a step.
     Fast,
-    /// The classical fourth-order Runge–Kutta method with projection.
+    /// Classical Runge–Kutta with projection: fourth order.
     RungeKutta,
-    /// The Gauss–Legendre method of sixth order: energy stays bounded over days.
+    /// Gauss–Legendre with three stages: sixth order; the energy error stays bounded over days.
     Precise,
 }
 
-/// What is constant over a run.
+/// Settings that are constant over a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// World acceleration, m/s².
     pub gravity: DVec3,
-    /// Pivot friction, damping and losses at impacts; off for tests of conservation.
+    /// Pivot friction and damping act; off for tests of conservation.
     pub friction: bool,
     /// 1/ω₀ of the stabiliser, s.
     pub stabilization_time: f64,
-    /// How time is advanced.
+    /// Numerical integrator.
     pub integrator: Integrator,
-    /// Which linear solver finds the multipliers.
+    /// Linear solver of the multipliers.
     pub solver: Solver,
 }
 
-/// Everything a figure needs to move.
+/// An articulation: bodies with their joints, limits, springs and surfaces.
 pub struct Articulation<'a> {
     /// Bodies in their start state.
     pub bodies: Vec<RigidBody>,
-    /// Damping per body.
+    /// Damping of each body.
     pub damping: Vec<Damping>,
-    /// Joints.
+    /// Constraints: joints, couplings and clutches.
     pub constraints: &'a [Constraint],
-    /// What stays within bounds.
+    /// Joint limits.
     pub limits: &'a [Limit],
     /// Springs.
     pub springs: &'a [Spring],
-    /// Bodies that follow a given motion.
+    /// Bodies whose motion is given.
     pub kinematic_bodies: &'a [KinematicBody],
-    /// Collision shapes, materials resolved per pair.
+    /// Collision shapes.
     pub colliders: &'a [Collider],
-    /// Pairs that can meet and what their surfaces do.
+    /// Pairs of colliders that can touch, with their coefficients.
     pub pairs: Vec<SurfacePair>,
 }

@@ -1,75 +1,86 @@
-//! Sleep: what rests is left out, exactly as it is, until something can touch or push it.
+//! Sleep of islands at rest: their bodies are left out of all computations until something disturbs them.
 //!
-//! Bodies that constraints, limits, springs and resting contacts put together are an *island* (E. Catto, "Simulation
-//! Islands", box2d.org, 2023). With ρ a body's radius of gyration, an island falls asleep when for all of it
+//! An *island* is all bodies that constraints, limits, springs and resting contacts connect (E. Catto, "Simulation Islands",
+//! box2d.org, 2023). With ρ a body's radius of gyration, an island falls asleep when all its bodies satisfy
 //!
 //! ```text
-//! v² + ρ² ω² < SLOW²      |ΔF|² + |Δτ|²/ρ² < (m SLIGHT)²       for QUIET seconds on end
+//! v² + ρ² ω² < SLOW²      |ΔF|² + |Δτ|²/ρ² < (m SLIGHT)²       for QUIET seconds in a row
 //! ```
 //!
-//! ΔF, Δτ being what the push from outside has changed by since then. A force that were not balanced would have left that
-//! speed behind; so would a swing that turns back. Asleep its velocities are nothing, its places do not change by a bit, and no
-//! row, contact, limit or spring of it is looked at. It wakes when
+//! ΔF and Δτ are the changes of the external wrench since then. An unbalanced force, or a swing at its turning point, would exceed
+//! that speed within this time. Asleep, velocities are zero, poses are constant to the bit, and no row, contact, limit or
+//! spring of the island is evaluated. It wakes when
 //!
-//! - the push on one of its bodies changes by SLIGHT: wind, breath, hand;
-//! - something that is awake hits it, or comes to lean on it;
-//! - a window opens or closes anywhere, or something breaks;
-//! - bodies are set from outside, or moved by places.
+//! - the external wrench on one of its bodies changes by SLIGHT: wind, breath, a pointer;
+//! - an awake body hits it or comes to rest on it;
+//! - the activation of any constraint changes, or one breaks;
+//! - bodies are set from outside, or a position-based step moves them.
 //!
-//! Nobody falls asleep while a row is drawn together, acts in part or waits for its window, or while a clutch slips. What a
-//! function of time acts on, or what is joined to a driven body or lies on one, never sleeps. Waking goes on to what leans on
-//! what wakes. What it had left of energy is entered with the work of its contacts.
+//! No island falls asleep while a row is being stabilised, is partly active or waits for its window, or while a clutch slips.
+//! Bodies under a function of time never sleep, nor those connected to a kinematic body or resting on one. Waking spreads through
+//! resting contacts. The remaining energy counts as work of the contacts.
 
 use crate::articulation::{Constraint, ConstraintKind, Groups, Limit, Spring};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::Function;
 use soffio_math::spatial::{Vec6, angular, linear};
 
-/// Slower than this is rest, m/s: less than a millimetre in a day, and more than what the contact solver leaves to the top of a tower of
-/// twenty boxes.
+/// Slower than this is at rest, m/s: less than a millimetre a day, and more than the contact solver's error at the top of a tower
+/// of twenty boxes.
 const SLOW: f64 = 1e-8;
-/// For so long, s: a swing of ω that is wider than 2 SLOW/(ω² QUIET), some nanometres, does not pause for as long.
+/// For so long, s. A swing of the frequency ω and an amplitude above 2 SLOW/(ω² QUIET), some nanometres, never pauses so long.
 const QUIET: f64 = 1.0;
-/// Acceleration that a change of push may be worth, m/s²: it would make a body SLOW in the same time.
+/// Largest acceleration by a change of the external wrench, m/s²: it gives a body the speed SLOW in that time.
 const SLIGHT: f64 = SLOW / QUIET;
 
-/// Who sleeps. Nothing here allocates after [`Sleep::new`].
+/// Which bodies sleep. Nothing here allocates after [`Sleep::new`].
 #[derive(Clone, Debug)]
 pub(super) struct Sleep {
-    /// Can anything ever sleep?
+    /// Some body may ever sleep.
     possible: bool,
-    /// What is joined, and with it what leans on each other.
-    joined: Groups,
+    /// Bodies that constraints, limits and springs connect.
+    connected: Groups,
+    /// The same and resting contacts.
     islands: Groups,
     is_kinematic: Vec<bool>,
     /// ρ², m².
     gyration: Vec<f64>,
-    /// Whether a body never sleeps, and whether its island cannot now, told by the first body.
-    restless: Vec<bool>,
-    stays: Vec<bool>,
-    /// For how long each has been slow under the same push, s; that push.
+    /// Whether each body never sleeps.
+    never_sleeps: Vec<bool>,
+    /// Whether an island cannot sleep now, by its first body.
+    stays_awake: Vec<bool>,
+    /// For how long each body has been slow under the same wrench, s.
     quiet: Vec<f64>,
-    push: Vec<Vec6>,
+    /// That wrench, N and N m.
+    wrench: Vec<Vec6>,
     asleep: Vec<bool>,
     count: usize,
 }
 
+/// What connects the bodies of an articulation.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Connections<'a> {
+    pub constraints: &'a [Constraint],
+    pub limits: &'a [Limit],
+    pub springs: &'a [Spring],
+}
+
 impl Sleep {
-    /// Nobody sleeps yet, nor ever if it is not `possible`.
+    /// All bodies are awake, and stay so if sleep is not `possible`.
     pub fn new(
         bodies: &[RigidBody],
         is_kinematic: &[bool],
-        (constraints, limits, springs): (&[Constraint], &[Limit], &[Spring]),
+        Connections { constraints, limits, springs }: Connections,
         possible: bool,
     ) -> Self {
         let n = bodies.len();
-        let mut joined = Groups::new(n);
-        let mut restless = vec![false; n];
-        let mut tie = |touches: &dyn Fn(usize) -> bool, changes: bool| {
-            let held = || (0..n).filter(|&body| !is_kinematic[body] && touches(body));
-            joined.join_all(held());
-            if changes || (0..n).any(|body| is_kinematic[body] && touches(body)) {
-                held().for_each(|body| restless[body] = true);
+        let mut connected = Groups::new(n);
+        let mut never_sleeps = vec![false; n];
+        let mut connect = |acts_on: &dyn Fn(usize) -> bool, changes: bool| {
+            let bodies = || (0..n).filter(|&body| !is_kinematic[body] && acts_on(body));
+            connected.join_all(bodies());
+            if changes || (0..n).any(|body| is_kinematic[body] && acts_on(body)) {
+                bodies().for_each(|body| never_sleeps[body] = true);
             }
         };
         let changes = |function: &Function| !matches!(function, Function::Constant(_));
@@ -79,91 +90,94 @@ impl Sleep {
                 ConstraintKind::Orientation { angle, .. } => changes(angle),
                 ConstraintKind::PointToPoint { .. } | ConstraintKind::Coupling { .. } => false,
             };
-            tie(&|body| constraint.kind.touches(body), moves);
+            connect(&|body| constraint.kind.touches(body), moves);
         }
         for limit in limits {
-            tie(&|body| limit.kind.touches(body), false);
+            connect(&|body| limit.kind.touches(body), false);
         }
         for spring in springs {
             let moves = [&spring.rest, &spring.stiffness, &spring.damping].into_iter().any(changes);
-            tie(&|body| spring.kind.touches(body), moves);
+            connect(&|body| spring.kind.touches(body), moves);
         }
         let inertia = |body: &RigidBody| body.properties.inertia;
         let trace = |body: &RigidBody| inertia(body).x_axis.x + inertia(body).y_axis.y + inertia(body).z_axis.z;
         Self {
             possible,
-            islands: joined.clone(),
-            joined,
+            islands: connected.clone(),
+            connected,
             gyration: bodies.iter().map(|body| trace(body) / (2.0 * body.properties.mass)).collect(),
             is_kinematic: is_kinematic.to_vec(),
-            restless,
-            stays: vec![false; n],
+            never_sleeps,
+            stays_awake: vec![false; n],
             quiet: vec![0.0; n],
-            push: vec![[0.0; 6]; n],
+            wrench: vec![[0.0; 6]; n],
             asleep: vec![false; n],
             count: 0,
         }
     }
 
-    /// Does anybody sleep?
+    /// Whether any body sleeps.
     pub fn any(&self) -> bool {
         self.count > 0
     }
 
-    /// Who sleeps, by bodies.
+    /// Whether each body sleeps.
     pub fn asleep(&self) -> &[bool] {
         &self.asleep
     }
 
-    /// Notes for how long bodies have been quiet, `dt` seconds later under this push.
-    pub fn watch(&mut self, dt: f64, bodies: &[RigidBody], push: &[Vec6]) {
+    /// Records for how long bodies have been quiet, after `dt` seconds under these external wrenches.
+    pub fn record(&mut self, dt: f64, bodies: &[RigidBody], wrenches: &[Vec6]) {
         if !self.possible {
             return;
         }
         for (index, body) in bodies.iter().enumerate().filter(|(index, _)| !self.asleep[*index]) {
             let square = body.velocity.length_squared() + self.gyration[index] * body.angular_velocity.length_squared();
-            if square < SLOW * SLOW && !self.pushed(index, body, &push[index]) {
+            if square < SLOW * SLOW && !self.wrench_changed(index, body, &wrenches[index]) {
                 self.quiet[index] += dt;
             } else {
-                (self.quiet[index], self.push[index]) = (0.0, push[index]);
+                (self.quiet[index], self.wrench[index]) = (0.0, wrenches[index]);
             }
         }
     }
 
-    /// Is a body pushed otherwise than when it came to rest?
-    fn pushed(&self, index: usize, body: &RigidBody, push: &Vec6) -> bool {
-        let change: Vec6 = std::array::from_fn(|k| push[k] - self.push[index][k]);
+    /// Whether the external wrench on a body differs from that under which it came to rest.
+    fn wrench_changed(&self, index: usize, body: &RigidBody, wrench: &Vec6) -> bool {
+        let change: Vec6 = std::array::from_fn(|k| wrench[k] - self.wrench[index][k]);
         let slight = body.properties.mass * SLIGHT;
         let square = linear(&change).length_squared() + angular(&change).length_squared() / self.gyration[index];
-        // What is no number is a push.
+        // NaN is a change.
         square.is_nan() || square > slight * slight
     }
 
-    /// A body that sleeps and is pushed, or no longer where it fell asleep (`placed`).
-    pub fn roused(&self, bodies: &[RigidBody], placed: &[RigidBody], push: &[Vec6]) -> Option<usize> {
-        let roused = |&body: &usize| {
-            self.asleep[body] && (self.pushed(body, &bodies[body], &push[body]) || bodies[body] != placed[body])
+    /// A sleeping body whose wrench changed, or whose state is no longer the one in which it fell asleep (`placed`).
+    pub fn disturbed(&self, bodies: &[RigidBody], placed: &[RigidBody], wrenches: &[Vec6]) -> Option<usize> {
+        let is_disturbed = |&body: &usize| {
+            self.asleep[body]
+                && (self.wrench_changed(body, &bodies[body], &wrenches[body]) || bodies[body] != placed[body])
         };
-        if self.any() { (0..bodies.len()).find(roused) } else { None }
+        if self.any() { (0..bodies.len()).find(is_disturbed) } else { None }
     }
 
-    /// Lets fall asleep what is quiet with all that leans on it. Did anything?
-    pub fn fall(&mut self, resting_pairs_bodies: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
+    /// Puts quiet islands to sleep. `resting` are the two bodies of every resting contact. Returns whether any fell asleep.
+    pub fn fall_asleep(&mut self, resting: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
         let n = self.asleep.len();
-        let tired =
+        let is_ready =
             |sleep: &Self, body: usize| sleep.quiet[body] >= QUIET && !sleep.asleep[body] && !sleep.is_kinematic[body];
-        if !(0..n).any(|body| tired(self, body)) {
+        if !(0..n).any(|body| is_ready(self, body)) {
             return false;
         }
-        self.look_for_islands(resting_pairs_bodies);
+        self.find_islands(resting);
         for body in 0..n {
-            if !self.is_kinematic[body] && (self.restless[body] || self.quiet[body] < QUIET || self.stays[body]) {
-                self.stays[self.islands.first(body)] = true;
+            if !self.is_kinematic[body]
+                && (self.never_sleeps[body] || self.quiet[body] < QUIET || self.stays_awake[body])
+            {
+                self.stays_awake[self.islands.first(body)] = true;
             }
         }
         let before = self.count;
         for body in 0..n {
-            if tired(self, body) && !self.stays[self.islands.first(body)] {
+            if is_ready(self, body) && !self.stays_awake[self.islands.first(body)] {
                 self.asleep[body] = true;
                 self.count += 1;
             }
@@ -171,12 +185,12 @@ impl Sleep {
         self.count > before
     }
 
-    /// Wakes a body with its island. Did it sleep?
-    pub fn wake(&mut self, body: usize, resting_pairs_bodies: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
+    /// Wakes a body with its island. Returns whether it slept.
+    pub fn wake(&mut self, body: usize, resting: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
         if !self.asleep[body] {
             return false;
         }
-        self.look_for_islands(resting_pairs_bodies);
+        self.find_islands(resting);
         let island = self.islands.first(body);
         for body in 0..self.asleep.len() {
             if self.asleep[body] && self.islands.first(body) == island {
@@ -187,31 +201,31 @@ impl Sleep {
         true
     }
 
-    /// Wakes all. Did anybody sleep?
+    /// Wakes all bodies. Returns whether any slept.
     pub fn wake_all(&mut self) -> bool {
         self.asleep.fill(false);
         self.quiet.fill(0.0);
         std::mem::take(&mut self.count) > 0
     }
 
-    /// Puts back what sleeps to where it was before, to the bit: turning by nothing may round.
-    pub fn keep(&self, bodies: &mut [RigidBody], before: &[RigidBody]) {
+    /// Restores the state of sleeping bodies to the bit, because a rotation by zero may round.
+    pub fn restore_sleeping(&self, bodies: &mut [RigidBody], before: &[RigidBody]) {
         if self.any() {
             let all = bodies.iter_mut().zip(before).zip(&self.asleep);
             all.filter(|(_, asleep)| **asleep).for_each(|((body, before), _)| *body = *before);
         }
     }
 
-    /// Puts together what leans on each other; what lies on a driven body stays awake.
-    fn look_for_islands(&mut self, resting_pairs_bodies: impl Iterator<Item = [Option<usize>; 2]>) {
-        self.islands.copy(&self.joined);
-        self.stays.fill(false);
-        for pair in resting_pairs_bodies {
+    /// Finds islands with these resting contacts; islands on a kinematic body stay awake.
+    fn find_islands(&mut self, resting: impl Iterator<Item = [Option<usize>; 2]>) {
+        self.islands.copy(&self.connected);
+        self.stays_awake.fill(false);
+        for pair in resting {
             let [Some(a), Some(b)] = pair else { continue };
             match (self.is_kinematic[a], self.is_kinematic[b]) {
                 (false, false) => self.islands.join(a, b),
-                (true, _) => self.stays[b] = true,
-                (_, true) => self.stays[a] = true,
+                (true, _) => self.stays_awake[b] = true,
+                (_, true) => self.stays_awake[a] = true,
             }
         }
     }

@@ -1,8 +1,12 @@
-//! One step of a figure, stage by stage.
+//! One step of an articulation: event-driven substeps, or Moreau's time stepping where the work budget is exhausted.
+//!
+//! A substep integrates the constrained equations of motion, finds the forces of resting contacts, and ends early at the first
+//! impact. Its length follows the integration error, the fastest tension mode and spin, tipping and sliding contacts, and the
+//! edges of the constraints' activation windows.
 
-use super::contacts::{Contacts, EarliestImpact, Impact, LAST_PASS, PassOutcome};
+use super::contacts::{Contacts, EarliestImpact, Impact, Pass, PassOutcome};
 use super::equations::{Equations, Evaluated};
-use super::integrate::{Integration, Moving};
+use super::integrate::{ErrorControl, Integration, Moving, Substep};
 use super::joint_loads::JointLoads;
 use super::recovery::Recovery;
 use super::settings::Settings;
@@ -11,26 +15,32 @@ use super::work_budget::WorkBudget;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
-/// Largest phase ω h of the stiffest tension mode in one substep, rad. The fourth-order method is stable up to 2.8;
-/// such a mode holds next to none of the energy, and at 1 it loses what little it has within some ten periods.
-const TENSION_PHASE: f64 = 3.2;
-/// Largest turn of a body in one substep, rad.
-const SPIN_PHASE: f64 = 0.25;
-/// Most substeps of one step: beyond it motion is followed less finely.
-const MOST_SUBSTEPS: f64 = 64.0;
-/// The same while joints are open. How they close is made up, not physics: nothing is gained by following it closely, and a
-/// scattered clock would need all of the above at every step.
-const MOST_SUBSTEPS_OPEN: f64 = 16.0;
-/// Most edges of windows that one step stops at; those nearer to each other are stepped over.
-const MOST_EDGES: f64 = 1024.0;
-/// A hit's time is aimed at this often, until it is right to this, s.
-const MAX_AIMS: usize = 3;
-const ON_TIME: f64 = 1e-6;
+/// Limits of a substep's length.
+struct SubstepLimits {
+    /// Largest phase ω h of the stiffest tension mode, rad. Runge–Kutta's method is stable up to 2.8. Such a mode holds hardly any
+    /// energy, and at 1 rad loses it within some ten periods.
+    tension_phase: f64,
+    /// Largest rotation of a body, rad.
+    rotation: f64,
+    /// Substeps of one step; faster motion is followed less finely.
+    count: f64,
+    /// The same while joints are open: how they close is not physics, and a scattered clock would need all of the above.
+    count_open: f64,
+    /// Edges of activation windows at which one step stops; nearer ones are stepped over.
+    edges: f64,
+}
 
-/// A figure in motion. Nothing here allocates after [`Dynamics::new`].
+const LIMITS: SubstepLimits =
+    SubstepLimits { tension_phase: 3.2, rotation: 0.25, count: 64.0, count_open: 16.0, edges: 1024.0 };
+
+/// An impact's time is improved at most so often, until its error is below this, s.
+const MAX_AIMS: usize = 3;
+const IMPACT_TIME_ERROR: f64 = 1e-6;
+
+/// Constrained dynamics of an articulation. Nothing here allocates after [`Dynamics::new`].
 #[derive(Clone)]
 pub struct Dynamics {
-    /// The bodies' present state. Whoever changes it from outside calls [`Dynamics::disturb`].
+    /// The bodies' present state. Call [`Dynamics::disturb`] after changing it from outside.
     pub bodies: Vec<RigidBody>,
     pub(super) settings: Settings,
     pub(super) equations: Equations,
@@ -40,23 +50,69 @@ pub struct Dynamics {
     pub(super) loads: JointLoads,
     pub(super) sleep: Sleep,
     pub(super) recovery: Recovery,
-    /// The bodies where the present substep began.
+    /// The bodies at the start of the present substep.
     pub(super) before: Vec<RigidBody>,
     /// Seconds since reset.
     pub(super) time: f64,
-    /// Breath of the step before, and of this one, m/s.
-    pub(super) breath: [f64; 2],
+    pub(super) breath: BreathSpeed,
     /// Substeps of the present step.
     pub(super) substeps: u32,
 }
 
+/// Speed of the breath at the lips, m/s.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct BreathSpeed {
+    /// In the last step.
+    pub before: f64,
+    /// In the present one.
+    pub now: f64,
+}
+
+/// A substep's place in the step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SubstepSpan {
+    /// Seconds after the beginning of the step.
+    pub start: f64,
+    /// Length, s.
+    pub h: f64,
+}
+
+/// How impacts within a substep are resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum ImpactScheme {
+    /// Each at its own time: the substep is cut there.
+    EventDriven,
+    /// All together at the substep's end.
+    TimeStepping,
+}
+
+/// What the next substep's length depends on.
+#[derive(Clone, Copy, Debug)]
+struct RemainingStep {
+    /// Seconds since reset.
+    now: f64,
+    /// Seconds of the step that are left.
+    left: f64,
+    /// Length of the whole step, s.
+    dt: f64,
+    scheme: ImpactScheme,
+}
+
+/// A substep that was integrated up to an impact.
+#[derive(Clone, Copy, Debug)]
+struct AimedSubstep {
+    /// Time used, s.
+    used: f64,
+    /// Time of the impact, s. If it is later than `used`, the error asked for a shorter substep.
+    target: f64,
+}
+
 impl Dynamics {
-    /// Advances by `dt` seconds under constant external wrenches (N and N m about each centre of mass). Impacts on
-    /// the way are appended to `impacts`. Returns the first body with bad numbers, before or after, because of which the figure
-    /// was put back.
+    /// Advances by `dt` seconds under constant external wrenches (N and N m about each centre of mass). Appends the impacts to
+    /// `impacts`. Returns the first body with invalid numbers, before or after, because of which all bodies were put back.
     pub fn step(&mut self, dt: f64, external: &[Vec6], impacts: &mut Vec<Impact>) -> Option<usize> {
-        // Whoever sets bodies from outside may have set them wrong.
-        let bad = self.recover_bad_bodies();
+        // Bodies may have been set to invalid states from outside.
+        let invalid = self.recover();
         self.equations.wrenches.given.copy_from_slice(external);
         self.wake_pushed_bodies();
         self.begin_step(dt);
@@ -68,13 +124,14 @@ impl Dynamics {
             }
             let now = self.time + done;
             self.evaluate_first_stage(now);
-            let together = self.budget.is_exhausted() && !self.contacts.is_empty();
-            let h = self.next_substep(now, dt - done, (dt, together));
-            self.set_shares(now + 0.5 * h);
-            done += if together {
-                self.substep_time_stepping(h, dt, done, impacts)
-            } else {
-                self.substep(h, dt, done, impacts)
+            let exhausted = self.budget.is_exhausted() && !self.contacts.is_empty();
+            let scheme = if exhausted { ImpactScheme::TimeStepping } else { ImpactScheme::EventDriven };
+            let h = self.next_substep_length(RemainingStep { now, left: dt - done, dt, scheme });
+            self.set_activations(now + 0.5 * h);
+            let span = SubstepSpan { start: done, h };
+            done += match scheme {
+                ImpactScheme::EventDriven => self.substep_event_driven(span, dt, impacts),
+                ImpactScheme::TimeStepping => self.substep_time_stepping(span, dt, impacts),
             };
             self.substeps += 1;
         }
@@ -83,7 +140,7 @@ impl Dynamics {
         }
         let lost = self.end_step(dt, already, impacts);
         self.fall_asleep(dt);
-        bad.or(lost)
+        invalid.or(lost)
     }
 
     /// Begins a step of `dt` seconds.
@@ -96,7 +153,7 @@ impl Dynamics {
         self.substeps = 0;
     }
 
-    /// What the joints carry says how long a substep may be; the rate is its first stage.
+    /// Finds the accelerations of the first stage, and the joints' loads, which bound the substep's length.
     fn evaluate_first_stage(&mut self, now: f64) {
         if self.equations.evaluated < Evaluated::Accelerations {
             self.apply_contact_forces();
@@ -105,35 +162,35 @@ impl Dynamics {
         }
     }
 
-    /// How long the next substep is to be, with `left` of the step's `dt` seconds left at the time `now`.
-    fn next_substep(&self, now: f64, left: f64, (dt, together): (f64, bool)) -> f64 {
+    /// Length of the next substep, s.
+    fn next_substep_length(&self, RemainingStep { now, left, dt, scheme }: RemainingStep) -> f64 {
         let Equations { system, springs, .. } = &self.equations;
         let edge = system.activity.next_edge(now).min(springs.activity.next_edge(now));
-        // Asked anew each time: a hit changes what there is to follow.
-        let left = left.min((edge - now).max(dt / MOST_EDGES));
-        let count = (left / self.substep_length(dt, together)).ceil().max(1.0);
+        let left = left.min((edge - now).max(dt / LIMITS.edges));
+        let count = (left / self.longest_substep(dt, scheme)).ceil().max(1.0);
         left / count
     }
 
-    /// Integrates `h` or less (where the error asks for it) or up to the first impact, resolves it, and returns the
-    /// time used.
-    fn substep(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
+    /// Integrates the substep, or less where the error asks for it or up to the first impact, which it resolves. Returns the time
+    /// used, s.
+    fn substep_event_driven(&mut self, span: SubstepSpan, dt: f64, impacts: &mut Vec<Impact>) -> f64 {
+        let SubstepSpan { start, h } = span;
         let (integration, mut moving) = self.moving();
         integration.begin_substep(&mut moving);
         let collides = !self.contacts.is_empty();
         if collides || self.contacts.clutches().count() > 0 || self.sleep.any() {
             self.before.copy_from_slice(&self.bodies);
         }
-        let now = self.time + done;
-        let least = self.shortest_substep(dt);
-        let mut used = self.integrate_substep(now, h, least, false);
+        let now = self.time + start;
+        let shortest = self.shortest_substep(dt);
+        let mut used = self.integrate_substep(Substep { t: now, h, shortest, error_control: ErrorControl::On });
         if collides {
-            if let Some(hit) = self.contacts.first_impact(&self.before, &self.bodies) {
-                let until;
-                (used, until) = self.integrate_to_impact(&hit, now, used, least);
-                // A substep that had to be shorter still comes upon the hit again.
-                if used >= until {
-                    self.resolve_impact(&hit, (done + used, h), impacts);
+            if let Some(impact) = self.contacts.earliest_impact(&self.before, &self.bodies) {
+                let aimed = self.integrate_to_impact(&impact, now, used, shortest);
+                used = aimed.used;
+                // A substep that had to be shorter still finds the impact again.
+                if used >= aimed.target {
+                    self.resolve_impact(&impact, SubstepSpan { start: start + used, h }, impacts);
                 }
             }
             while let Some(body) = self.contacts.disturbed_sleeper() {
@@ -146,11 +203,12 @@ impl Dynamics {
         used
     }
 
-    /// Integrates `h` seconds or less (where the error asks for it) as if nothing were in the way, puts right at their end what met
-    /// or rests, and returns the time used.
-    fn substep_time_stepping(&mut self, h: f64, dt: f64, done: f64, impacts: &mut Vec<Impact>) -> f64 {
-        let now = self.time + done;
-        let least = self.shortest_substep(dt);
+    /// Integrates the substep, or less where the error asks for it, without impacts, and resolves them at its end together with
+    /// the resting contacts. Returns the time used, s.
+    fn substep_time_stepping(&mut self, span: SubstepSpan, dt: f64, impacts: &mut Vec<Impact>) -> f64 {
+        let SubstepSpan { start, h } = span;
+        let now = self.time + start;
+        let shortest = self.shortest_substep(dt);
         let (integration, mut moving) = self.moving();
         integration.begin_substep(&mut moving);
         self.before.copy_from_slice(&self.bodies);
@@ -158,19 +216,19 @@ impl Dynamics {
         self.contacts.prepare_contact_forces_once(h, &self.equations.system);
         self.apply_contact_forces();
         let (integration, mut moving) = self.moving();
-        let h = integration.integrate(&mut moving, now, h, least);
+        let h = integration.integrate(&mut moving, Substep { t: now, h, shortest, error_control: ErrorControl::On });
         while self.sleep.any()
-            && let Some(body) = self.contacts.sleeper_hit(&self.before, &self.bodies)
+            && let Some(body) = self.contacts.sleeper_reached(&self.before, &self.bodies)
         {
             self.wake(body);
         }
         self.equations.prepare_impulses(&self.bodies);
         let Self { equations, contacts, bodies, before, .. } = self;
-        contacts.finish_time_step((done, h), before, &mut equations.system, bodies, impacts);
-        contacts.stick(h, &mut equations.system, bodies);
+        contacts.finish_time_step(SubstepSpan { start, h }, before, &mut equations.system, bodies, impacts);
+        contacts.stick_clutches(h, &mut equations.system, bodies);
         self.equations.project(&mut self.bodies);
         self.integration.interrupt();
-        self.sleep.keep(&mut self.bodies, &self.before);
+        self.sleep.restore_sleeping(&mut self.bodies, &self.before);
         while let Some(body) = self.contacts.disturbed_sleeper() {
             self.wake(body);
         }
@@ -181,36 +239,42 @@ impl Dynamics {
         h
     }
 
-    /// Goes through a substep of `whole` seconds again, up to a hit on its way. Returns the time used, and the time aimed at.
-    fn integrate_to_impact(&mut self, hit: &EarliestImpact, now: f64, whole: f64, least: f64) -> (f64, f64) {
-        let (mut used, mut until) = (whole, whole * hit.s);
+    /// Repeats a substep of `whole` seconds up to an impact within it.
+    fn integrate_to_impact(&mut self, impact: &EarliestImpact, now: f64, whole: f64, shortest: f64) -> AimedSubstep {
+        let mut aimed = AimedSubstep { used: whole, target: whole * impact.s };
         for aim in 1..=MAX_AIMS {
             self.back_to_start();
             self.contacts.cut_substep();
-            // Shorter than what went well: it goes well.
-            used = if until > 0.0 { self.integrate_substep(now, until, least.min(until), true) } else { 0.0 };
-            let early = self.contacts.time_to_contact(hit, &self.bodies);
-            let better = (until + early).clamp(0.0, whole);
-            if aim == MAX_AIMS || used < until || (better - until).abs() < ON_TIME {
+            let AimedSubstep { target, .. } = aimed;
+            // It is shorter than an accepted substep, so its error is smaller.
+            aimed.used = if target > 0.0 {
+                let shortest = shortest.min(target);
+                self.integrate_substep(Substep { t: now, h: target, shortest, error_control: ErrorControl::Off })
+            } else {
+                0.0
+            };
+            let correction = self.contacts.time_to_contact(impact, &self.bodies);
+            let better = (target + correction).clamp(0.0, whole);
+            if aim == MAX_AIMS || aimed.used < target || (better - target).abs() < IMPACT_TIME_ERROR {
                 break;
             }
-            until = better;
+            aimed.target = better;
         }
-        (used, until)
+        aimed
     }
 
-    /// Resolves a hit where the bodies are; `at` is its time in the step and the length of a substep.
-    fn resolve_impact(&mut self, hit: &EarliestImpact, at: (f64, f64), impacts: &mut Vec<Impact>) {
-        self.wake_for(hit);
+    /// Resolves an impact at the bodies' present state; `at` is its time and the length of the substep.
+    fn resolve_impact(&mut self, impact: &EarliestImpact, at: SubstepSpan, impacts: &mut Vec<Impact>) {
+        self.wake_for(impact);
         self.equations.prepare_impulses(&self.bodies);
-        self.contacts.resolve_impact(hit, at, &mut self.equations.system, &mut self.bodies, impacts);
+        self.contacts.resolve_impact(impact, at, &mut self.equations.system, &mut self.bodies, impacts);
         self.integration.interrupt();
     }
 
-    /// Notes what the joints carry at the end of a substep, as far as that is known or asked.
+    /// Records the joints' loads at the end of a substep, if they are known or needed there.
     fn record_joint_loads(&mut self, t: f64) {
         if self.loads.needed_at_substep_end {
-            // What the joints carry: the last solve was of impulses, or before the substep's end.
+            // The last solve was of impulses, or before the substep's end.
             self.apply_contact_forces();
             self.equations.ensure_accelerations(&mut self.bodies, t);
         }
@@ -219,29 +283,32 @@ impl Dynamics {
         }
     }
 
-    /// Integrates like [`Integration::integrate`] under the forces that hold what rests, again where they prove wrong or a clutch
-    /// gives way; `sure` says that the error need not be asked.
-    fn integrate_substep(&mut self, t: f64, mut h: f64, least: f64, sure: bool) -> f64 {
+    /// Integrates like [`Integration::integrate`] under the forces of resting contacts, and repeats the substep where they prove
+    /// wrong or a clutch slips. Returns the time used, s.
+    fn integrate_substep(&mut self, substep: Substep) -> f64 {
+        let Substep { t, mut h, shortest, error_control } = substep;
         self.contacts.begin_substep();
-        let mut pass = 1;
+        let mut number = 1;
         loop {
             self.contacts.prepare_contact_forces(h, &self.equations.system);
             self.apply_contact_forces();
             let (integration, mut moving) = self.moving();
-            h = integration.integrate(&mut moving, t, h, if sure || pass > 1 { h } else { least });
-            // A pass more would be too much: the forces are as good as they get.
-            let last = self.budget.is_exhausted();
-            let verdict = self.finish_pass(h, if last { LAST_PASS } else { pass }, if last { h } else { least });
+            // A repeated substep keeps its length.
+            let error_control = if number > 1 { ErrorControl::Off } else { error_control };
+            h = integration.integrate(&mut moving, Substep { t, h, shortest, error_control });
+            let is_last = self.budget.is_exhausted();
+            let may_shorten = !is_last && h > 2.0 * shortest;
+            let outcome = self.finish_pass(Pass { h, number, is_last, may_shorten });
             self.budget.record_pass(self.bodies.len(), self.contacts.take_operations());
-            match verdict {
-                PassOutcome::Repeat => pass += 1,
-                PassOutcome::Shorten => (h, pass) = (0.5 * h, 1),
+            match outcome {
+                PassOutcome::Repeat => number += 1,
+                PassOutcome::Shorten => (h, number) = (0.5 * h, 1),
                 PassOutcome::ClutchSlips => {
                     self.integration.interrupt();
-                    pass = 1;
+                    number = 1;
                 }
                 PassOutcome::Accepted { .. } => {
-                    self.sleep.keep(&mut self.bodies, &self.before);
+                    self.sleep.restore_sleeping(&mut self.bodies, &self.before);
                     return h;
                 }
             }
@@ -249,32 +316,32 @@ impl Dynamics {
         }
     }
 
-    /// Looks what a pass over a substep of `h` seconds has come to, and puts right what rests.
-    fn finish_pass(&mut self, h: f64, pass: usize, least: f64) -> PassOutcome {
+    /// Solves the resting contacts at the end of a pass over a substep.
+    fn finish_pass(&mut self, pass: Pass) -> PassOutcome {
         let Self { equations, contacts, bodies, before, .. } = self;
-        let rests = contacts.has_resting_contacts();
-        let verdict = contacts.finish_pass((h, pass, h > 2.0 * least), before, &mut equations.system, bodies);
-        if !rests {
-            return verdict;
+        let had_contacts = contacts.has_resting_contacts();
+        let outcome = contacts.finish_pass(pass, before, &mut equations.system, bodies);
+        if !had_contacts {
+            return outcome;
         }
-        // Rows and factor of the substep's end serve: joints have closed since by less than what matters to them.
+        // The rows and factor of the substep's end are reused: the joints have closed by less than matters.
         equations.evaluated = Evaluated::Nothing;
-        if let PassOutcome::Accepted { moved } = verdict {
-            // Contacts move bodies by first-order steps through the joints: what is left of second order goes here.
-            if moved {
+        if let PassOutcome::Accepted { pushed_apart } = outcome {
+            // Contacts displace bodies through the joints to first order. Projection removes the second-order error.
+            if pushed_apart {
                 equations.project(bodies)
             } else {
                 equations.take_over_state(bodies)
             }
-            if contacts.stick(h, &mut equations.system, bodies) {
+            if contacts.stick_clutches(pass.h, &mut equations.system, bodies) {
                 equations.evaluated = Evaluated::Nothing;
                 self.integration.interrupt();
             }
         }
-        verdict
+        outcome
     }
 
-    /// All wrenches: those from outside, and those of what rests.
+    /// Sums the external wrenches and those of resting contacts.
     fn apply_contact_forces(&mut self) {
         let contacts = &self.contacts;
         if self.equations.wrenches.sum_up(|wrenches| contacts.apply_contact_forces(wrenches)) {
@@ -282,7 +349,7 @@ impl Dynamics {
         }
     }
 
-    /// The integrators, and what they move.
+    /// The integrators and what they advance.
     fn moving(&mut self) -> (&mut Integration, Moving<'_>) {
         let Self { integration, bodies, equations, contacts, .. } = self;
         (integration, Moving { bodies, equations, contacts })
@@ -293,37 +360,36 @@ impl Dynamics {
         integration.back_to_start(&mut moving);
     }
 
-    /// Longest substep that follows the fastest motion: the tension modes, the free spin, what the last error allowed, what tips and,
-    /// unless contact is solved `together`, what slides.
-    fn substep_length(&self, dt: f64, together: bool) -> f64 {
+    /// Longest substep, s: by the tension modes, spin, the last integration error, tipping and, with event-driven impacts, sliding.
+    fn longest_substep(&self, dt: f64, scheme: ImpactScheme) -> f64 {
         let spins = self.bodies.iter().map(|body| body.angular_velocity.length_squared());
         let spin = spins.fold(0.0, f64::max);
-        let mut longest = (TENSION_PHASE / self.loads.stiffest().sqrt())
-            .min(SPIN_PHASE / spin.sqrt())
-            .min(self.integration.suggested_step);
-        longest = longest.min(self.contacts.longest_substep(together));
+        let tension = LIMITS.tension_phase / self.loads.stiffest().sqrt();
+        let longest = tension.min(LIMITS.rotation / spin.sqrt()).min(self.integration.suggested_step);
+        let longest = longest.min(self.contacts.longest_substep(scheme == ImpactScheme::EventDriven));
         longest.max(self.shortest_substep(dt))
     }
 
-    /// The shortest substep of a step of `dt` seconds, s.
+    /// Shortest substep of a step of `dt` seconds, s.
     fn shortest_substep(&self, dt: f64) -> f64 {
-        dt / if self.equations.system.gathers() { MOST_SUBSTEPS_OPEN } else { MOST_SUBSTEPS }
+        dt / if self.equations.system.gathers() { LIMITS.count_open } else { LIMITS.count }
     }
 
-    /// Joints or what acts on them have changed: all wake, and nothing goes on from what was.
+    /// Joints, or the forces on them, have changed: all bodies wake, and the multistep history ends.
     fn joints_changed(&mut self) {
         self.wake_all();
         self.integration.interrupt();
         self.equations.evaluated = Evaluated::Nothing;
     }
 
-    fn set_shares(&mut self, t: f64) {
+    /// Sets the activation of constraints and springs at the time `t`.
+    fn set_activations(&mut self, t: f64) {
         if self.equations.system.activity.set_shares(t) | self.equations.springs.activity.set_shares(t) {
             self.joints_changed();
         }
     }
 
-    /// Breaks what carries too much at the time `t`.
+    /// Breaks overloaded constraints and springs at the time `t`.
     fn break_overloaded(&mut self, t: f64) {
         self.equations.springs.break_overloaded(&self.bodies, t);
         for k in 0..self.equations.system.activity.fragile().len() {
@@ -342,18 +408,19 @@ impl Dynamics {
         }
     }
 
-    /// Forgets what happened in the last step, and fires the triggers that waited for this step's breath.
+    /// Clears the events of the last step, and fires triggers by this step's breath.
     fn begin_events(&mut self) {
-        let [before, speed] = self.breath;
+        let BreathSpeed { before, now } = self.breath;
         for activity in [&mut self.equations.system.activity, &mut self.equations.springs.activity] {
             activity.breaks.clear();
             activity.fired.clear();
-            activity.breathe(before, speed, self.time);
+            activity.breathe(before, now, self.time);
         }
-        self.breath[0] = speed;
+        self.breath.before = now;
     }
 
-    /// Fires what waited for the step's hits, lets time go on and puts back what broke down. Returns the first bad body.
+    /// Fires triggers by the step's impacts, advances the time, and recovers from invalid numbers. Returns the first body that had
+    /// them. `already` is the number of impacts before the step.
     pub(super) fn end_step(&mut self, dt: f64, already: usize, impacts: &mut Vec<Impact>) -> Option<usize> {
         let Equations { system, springs, .. } = &mut self.equations;
         for impact in &impacts[already..] {
@@ -363,9 +430,9 @@ impl Dynamics {
             }
         }
         self.time += dt;
-        let lost = self.recover_bad_bodies();
+        let lost = self.recover();
         if lost.is_some() {
-            // What went wrong did not happen.
+            // The step did not happen, nor did its impacts.
             impacts.truncate(already);
         }
         self.equations.system.count_turns(&self.bodies);
@@ -373,15 +440,10 @@ impl Dynamics {
         lost
     }
 
-    /// Puts the figure back to where the last step began if a body has bad numbers; returns the first such body. A step
-    /// begins with it: whoever looks at the bodies before that, and may have set them, calls it himself.
+    /// Puts all bodies back to the beginning of the last step, at rest, if one has invalid numbers. Returns the first such body.
+    /// Every step begins with it; call it before that to read bodies that were set from outside.
     pub fn recover(&mut self) -> Option<usize> {
-        self.recover_bad_bodies()
-    }
-
-    /// Puts bodies with bad numbers back to where the step began, at rest. Returns the first of them.
-    pub(super) fn recover_bad_bodies(&mut self) -> Option<usize> {
-        let fault = self.recovery.restore(&mut self.bodies);
+        let fault = self.recovery.recover(&mut self.bodies);
         if fault.is_some() {
             self.wake_all();
             self.restart();
@@ -389,22 +451,22 @@ impl Dynamics {
         fault
     }
 
-    /// The laws start anew from where the bodies are.
+    /// Starts constrained dynamics anew from the bodies' present state.
     pub(super) fn restart(&mut self) {
         self.equations.system.begin_trains(&self.bodies);
-        self.contacts.forget(&self.bodies);
+        self.contacts.restart(&self.bodies);
         self.contacts.find_resting_contacts(&self.bodies);
-        self.loads.forget();
+        self.loads.clear();
         self.integration.reset();
         self.equations.evaluated = Evaluated::Nothing;
     }
 
-    /// Sets the breath's speed at the lips from the next step on, m/s; triggers wait for it.
+    /// Sets the breath's speed at the lips from the next step on, m/s; triggers depend on it.
     pub fn set_breath_speed(&mut self, speed: f64) {
-        self.breath[1] = speed;
+        self.breath.now = speed;
     }
 
-    /// Says that bodies were moved from outside.
+    /// Must be called after [`Dynamics::bodies`] were changed from outside: wakes all bodies and validates them.
     pub fn disturb(&mut self) {
         self.wake_all();
         self.equations.evaluated = Evaluated::Nothing;

@@ -1,8 +1,8 @@
-//! State and rate of bodies, for one or four of them: how a state goes on.
+//! Substep state: state and rate of bodies, for one or four of them at a time (Munthe-Kaas for rotations).
 //!
-//! State of a body: (x, q, v, ω), with a and α from the joints' solve. Within a substep its rotation is written as
-//! q = exp(σ) q₀ and the vector σ is integrated (Munthe-Kaas), so that a body spinning about a fixed axis, as every
-//! wheel does, turns by exactly the angle it should:
+//! The state of a body is (x, q, v, ω), with a and α from the joints' solve. Within a substep its rotation is q = exp(σ) q₀, and
+//! the vector σ is integrated (H. Munthe-Kaas, "Runge–Kutta methods on Lie groups", 1998). A body that spins about a fixed axis,
+//! as every wheel does, then turns by exactly the right angle:
 //!
 //! ```text
 //! σ̇ = ω − ½ σ×ω + k σ×(σ×ω)          k = (1 − (θ/2) cot(θ/2))/θ² = 1/12 + θ²/720 + θ⁴/30240 + …,  θ = |σ|
@@ -13,13 +13,14 @@ use crate::articulation::quads::State;
 use soffio_math::lanes::{Four, Lanes, Quat, Real, V3};
 use soffio_math::spatial::Sym3;
 
-/// Differences of accelerations that Adams' method goes on from, and room for the one of the present step.
-pub(super) const ENOUGH: usize = 3;
-pub(super) const KEPT: usize = ENOUGH + 1;
-/// Slower motion than this is followed no more closely than this one, m/s.
+/// Differences of accelerations that Adams' method extrapolates.
+pub(super) const ORDER: usize = 3;
+/// The same and that of the present step.
+pub(super) const DIFFERENCES: usize = ORDER + 1;
+/// Errors are relative to this velocity where motion is slower, m/s.
 pub(super) const SLOWEST: f64 = 1e-3;
 
-/// A state and `h` times a rate; also σ.
+/// The state after `h` seconds at a constant rate, and σ.
 #[inline(always)]
 pub(super) fn advance<T: Real, L: Lanes<T = T>>(
     lanes: L,
@@ -28,88 +29,89 @@ pub(super) fn advance<T: Real, L: Lanes<T = T>>(
     rate: &Rate<T>,
 ) -> (State<T>, V3<T>) {
     let h = from.rotation.w.all(h);
-    let turn = rate.turn * h;
+    let sigma = rate.sigma * h;
     let state = State {
         position: from.position + rate.velocity * h,
-        rotation: Quat::of_turn(lanes, turn).times(from.rotation).renormalized(),
+        rotation: Quat::of_turn(lanes, sigma).times(from.rotation).renormalized(),
         velocity: from.velocity + rate.acceleration.linear * h,
         spin: from.spin + rate.acceleration.angular * h,
     };
-    (state, turn)
+    (state, sigma)
 }
 
-/// Rate of change of a body's state.
+/// Rate of change of bodies' states.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rate<T> {
     pub velocity: V3<T>,
-    /// σ̇.
-    pub turn: V3<T>,
+    /// σ̇, rad/s.
+    pub sigma: V3<T>,
     pub acceleration: Twist<T>,
 }
 
 impl<T: Real> Rate<T> {
-    /// Of a body that goes like this and has turned by σ since the substep began.
+    /// The rate of a body with these velocities and accelerations, rotated by `sigma` since the substep began.
     #[inline(always)]
     pub fn of(velocity: V3<T>, spin: V3<T>, sigma: V3<T>, acceleration: Twist<T>) -> Self {
         let across = sigma.cross(spin);
         let x = sigma.dot(sigma);
         let k = x.all(1.0 / 12.0) + x * (x.all(1.0 / 720.0) + x / x.all(30240.0));
-        let turn = spin - across * x.all(0.5) + sigma.cross(across) * k;
-        Self { velocity, turn, acceleration }
+        let sigma_rate = spin - across * x.all(0.5) + sigma.cross(across) * k;
+        Self { velocity, sigma: sigma_rate, acceleration }
     }
 
-    /// Adds this share of another.
+    /// Adds `weight` times another rate.
     #[inline(always)]
     pub fn add(&mut self, weight: f64, other: &Self) {
         let weight = self.velocity.x.all(weight);
         self.velocity += other.velocity * weight;
-        self.turn += other.turn * weight;
+        self.sigma += other.sigma * weight;
         self.acceleration.linear += other.acceleration.linear * weight;
         self.acceleration.angular += other.acceleration.angular * weight;
     }
 }
 
 impl Rate<Four> {
-    /// Reads.
+    /// Reads the four lanes.
     #[inline(always)]
     pub fn get<L: Lanes>(&self, lanes: L) -> Rate<L::T> {
         Rate {
             velocity: self.velocity.get(lanes),
-            turn: self.turn.get(lanes),
+            sigma: self.sigma.get(lanes),
             acceleration: self.acceleration.get(lanes),
         }
     }
 
-    /// Writes.
+    /// Writes the four lanes.
     #[inline(always)]
     pub fn set<L: Lanes>(&mut self, lanes: L, rate: &Rate<L::T>) {
         self.velocity.put(lanes, rate.velocity);
-        self.turn.put(lanes, rate.turn);
+        self.sigma.put(lanes, rate.sigma);
         self.acceleration.put(lanes, &rate.acceleration);
     }
 }
 
-/// What four bodies go through in a substep.
+/// States and rates of four bodies within a substep.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct SubstepState {
-    /// Where it began.
+    /// State at its start.
     pub start: State<Four>,
-    /// Sum of the rates so far, by their weights.
+    /// Weighted sum of the rates so far.
     pub mean: Rate<Four>,
-    /// σ at the present stage.
-    pub turned: V3<Four>,
-    /// a where the substep began, and by how much it has changed within the last ones (`adams.rs`).
-    pub begun: Twist<Four>,
-    pub differences: [Twist<Four>; KEPT],
+    /// σ at the present stage, rad.
+    pub sigma: V3<Four>,
+    /// a at its start.
+    pub start_acceleration: Twist<Four>,
+    /// Change of a within the last substeps (`adams.rs`).
+    pub differences: [Twist<Four>; DIFFERENCES],
     /// a of the last stage.
-    pub last: Twist<Four>,
+    pub last_acceleration: Twist<Four>,
     /// (k₅ − k₄)/h³ of the substep before.
-    pub fourth: Twist<Four>,
+    pub previous_estimate: Twist<Four>,
 }
 
 /// a − b.
 #[inline(always)]
-pub(super) fn less<T: Real>(a: Twist<T>, b: Twist<T>) -> Twist<T> {
+pub(super) fn difference<T: Real>(a: Twist<T>, b: Twist<T>) -> Twist<T> {
     Twist { linear: a.linear - b.linear, angular: a.angular - b.angular }
 }
 

@@ -1,4 +1,4 @@
-//! Who falls asleep and who wakes (`sleep.rs`), and what all others are told of it.
+//! Falling asleep and waking (`sleep.rs`), and its effect on joints, springs and contacts.
 
 use super::contacts::EarliestImpact;
 use super::equations::Evaluated;
@@ -6,17 +6,17 @@ use super::step::Dynamics;
 use soffio_math::DVec3;
 
 impl Dynamics {
-    /// Does a body sleep: at rest, and left out until something touches or pushes it?
+    /// Whether a body sleeps: it is at rest, and left out until something touches or pushes it.
     pub fn is_asleep(&self, body: usize) -> bool {
         self.sleep.asleep()[body]
     }
 
-    /// Lets fall asleep what has rested for long enough, `dt` seconds later; what it still had of speed is gone.
+    /// Puts islands to sleep that have been at rest long enough, after a step of `dt` seconds. Their velocities become zero.
     pub(super) fn fall_asleep(&mut self, dt: f64) {
         let Self { sleep, contacts, equations, bodies, .. } = self;
-        sleep.watch(dt, bodies, &equations.wrenches.given);
-        let waits = equations.system.gathers() || contacts.clutches().slipping().next().is_some();
-        if waits || !sleep.fall(contacts.resting_pairs_bodies()) {
+        sleep.record(dt, bodies, &equations.wrenches.given);
+        let changing = equations.system.gathers() || contacts.clutches().slipping().next().is_some();
+        if changing || !sleep.fall_asleep(contacts.resting_bodies()) {
             return;
         }
         for (index, body) in bodies.iter_mut().enumerate().filter(|(index, _)| sleep.asleep()[*index]) {
@@ -28,40 +28,42 @@ impl Dynamics {
         self.publish_sleep();
     }
 
-    /// Wakes what is pushed otherwise than when it fell asleep, or no longer where it did.
+    /// Wakes bodies whose external wrench or state has changed since they fell asleep.
     pub(super) fn wake_pushed_bodies(&mut self) {
-        while let Some(body) = self.sleep.roused(&self.bodies, &self.before, &self.equations.wrenches.given) {
+        while let Some(body) = self.sleep.disturbed(&self.bodies, &self.before, &self.equations.wrenches.given) {
             self.wake(body);
         }
     }
 
     /// Wakes a body with its island.
     pub(super) fn wake(&mut self, body: usize) {
-        if self.sleep.wake(body, self.contacts.resting_pairs_bodies()) {
+        if self.sleep.wake(body, self.contacts.resting_bodies()) {
             self.publish_sleep();
         }
     }
 
+    /// Wakes all bodies.
     pub(super) fn wake_all(&mut self) {
         if self.sleep.wake_all() {
             self.publish_sleep();
         }
     }
 
-    /// Wakes all that a hit will be felt by.
-    pub(super) fn wake_for(&mut self, hit: &EarliestImpact) {
+    /// Wakes all bodies that an impact acts on.
+    pub(super) fn wake_for(&mut self, impact: &EarliestImpact) {
         while self.sleep.any()
-            && let Some(body) = self.contacts.sleeper_near_impact(hit, &self.bodies)
+            && let Some(body) = self.contacts.sleeper_near_impact(impact, &self.bodies)
         {
             self.wake(body);
         }
     }
 
+    /// Passes on which bodies sleep to joints, springs and contacts.
     fn publish_sleep(&mut self) {
         let asleep = self.sleep.asleep();
         self.equations.system.let_sleep(asleep, &self.bodies);
-        self.equations.springs.let_sleep(asleep);
-        self.contacts.let_sleep(asleep, &self.bodies);
+        self.equations.springs.set_asleep(asleep);
+        self.contacts.set_asleep(asleep, &self.bodies);
         self.integration.interrupt();
         self.equations.evaluated = Evaluated::Nothing;
     }

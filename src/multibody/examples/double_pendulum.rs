@@ -33,7 +33,7 @@ fn hinge(name: &str, rod: usize, other: Option<usize>) -> Constraint {
 
 fn main() {
     let constraints = [hinge("nail", 0, None), hinge("joint", 1, Some(0))];
-    let figure = Articulation {
+    let articulation = Articulation {
         bodies: vec![rod(0.0), rod(LENGTH)],
         damping: vec![Damping::default(); 2],
         constraints: &constraints,
@@ -50,7 +50,7 @@ fn main() {
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
     };
-    let mut dynamics = Dynamics::new(figure, settings);
+    let mut dynamics = Dynamics::new(articulation, settings);
     let start = dynamics.energy();
     // Of the fall of both rods to their lowest place, J.
     let fall = MASS * G * (0.5 + 1.5) * LENGTH;

@@ -44,7 +44,7 @@ impl Compulsive {
         let (system, contacts) = (dynamics.system_without_trains(), dynamics.contacts());
         let mut bounds = vec![Vec::new(); system.joints().len()];
         let mut strays = Vec::new();
-        for bound in 0..contacts.bounds() {
+        for bound in 0..contacts.bound_count() {
             let [a, b] = contacts.bound_bodies(bound);
             let between = |joint: &Joint| {
                 let link = (Some(joint.link.a), joint.link.b);

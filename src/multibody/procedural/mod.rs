@@ -115,7 +115,7 @@ impl Procedural {
     fn carry_out(&mut self, mut moved: PositionStep, dt: f64, grips: &[Grip], follows: bool) {
         self.before.copy_from_slice(moved.bodies);
         self.leave_open(&mut moved, dt, follows);
-        moved.system.activity.set_time(moved.until);
+        moved.system.activity.set_time(moved.end_time);
         self.update(&mut moved, dt);
         self.reach = self.adjust(&mut moved, grips);
         self.fours.keep_speed(moved.system, moved.bodies, &self.before, dt);
@@ -148,7 +148,7 @@ impl Procedural {
 
     /// Says what the joints may keep open: what is open at a step's start is drawn together over time, not in one step.
     fn leave_open(&mut self, moved: &mut PositionStep, dt: f64, follows: bool) {
-        let closed = follows && !moved.changed && self.reach.residual <= REACHED;
+        let closed = follows && !moved.activation_changed && self.reach.residual <= REACHED;
         if closed {
             self.tree.left.fill(0.0);
             return;
@@ -162,7 +162,7 @@ impl Procedural {
         let Settings { method, retention, .. } = self.settings;
         self.fours.update(moved, dt, retention, method == Method::TreeSolve);
         for drive in moved.kinematic_bodies {
-            drive.motion.at(moved.until).place(&mut moved.bodies[drive.body]);
+            drive.motion.at(moved.end_time).place(&mut moved.bodies[drive.body]);
             moved.system.quads_mut().look_at(drive.body, &moved.bodies[drive.body]);
         }
     }

@@ -75,7 +75,7 @@ pub(super) struct Touches {
 
 impl Touches {
     pub fn new(dynamics: &Dynamics) -> Self {
-        let sources = dynamics.contacts().sources();
+        let sources = dynamics.contacts().source_count();
         let room = if sources == 0 { 0 } else { MOST_MET };
         let bodies = if sources == 0 { 0 } else { dynamics.bodies.len() };
         Self {

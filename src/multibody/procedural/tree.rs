@@ -116,7 +116,7 @@ impl TreeSolve {
                 led = reach.missed > REACHED && reach.missed <= LEAST_GAIN * before && reach.passes < MOST_LED;
                 before = reach.missed;
             }
-            let passed = (0..contacts.bounds()).fold(0.0, |most: f64, b| most.max(-contacts.bound_gap(b, bodies)));
+            let passed = (0..contacts.bound_count()).fold(0.0, |most: f64, b| most.max(-contacts.bound_gap(b, bodies)));
             let worst = reach.residual.max(passed).max(if led { reach.missed } else { 0.0 });
             if worst <= REACHED || alone == MOST_PASSES {
                 return reach;
@@ -152,7 +152,7 @@ impl TreeSolve {
                 self.rows.push(Beside { ends, way, limit: false, on: true });
             }
         }
-        for bound in 0..contacts.bounds() {
+        for bound in 0..contacts.bound_count() {
             if self.rows.len() < MOST_ROWS && contacts.bound_gap(bound, bodies) < LEVEL {
                 let (gap, ends) = contacts.bound(bound, bodies);
                 self.rows.push(Beside { ends, way: -gap, limit: true, on: true });

@@ -1,126 +1,209 @@
-//! Touches: the points, bounds, couples and clutches that a contact problem solves for.
+//! Contacts: the elements that the contact problem finds impulses for.
+//!
+//! There are four kinds ([`ContactKind`]): a contact point between two surfaces, a bound of a joint limit, the rolling and
+//! drilling resistance of a contact point, and a slipping clutch. A fifth takes back a force whose contact is gone.
+//!
+//! Vectors of a contact are in its frame (n, t, b): the normal, then the two tangents of `math::tangents`. A limit and a
+//! clutch have one number, in x.
 
 use super::contact_law::EffectiveInverseMass;
-use soffio_math::{DMat3, DVec3};
+use soffio_math::DVec3;
+use std::ops::Range;
 
-/// Share of the largest velocities that an impulse makes which is rounding.
+/// An impulse that makes less than this share of the largest velocity is rounding.
 pub(super) const ROUNDING: f64 = 1e-13;
-/// What is added to K, as a share of its trace, so that it has an inverse where nothing more gives way.
+/// Added to K as a share of its trace, so that K has an inverse where joints hold a direction.
 pub(super) const PROXIMAL: f64 = 1e-12;
-/// A touch whose effective inverse mass is below this (1/kg) is held by joints and cannot move.
+/// A contact with a smaller effective inverse mass than this (1/kg) is held by joints and cannot move.
 pub(super) const LOCKED: f64 = 1e-9;
+/// ω₁: a clutch that slips at this angular velocity carries twice its torque, rad/s.
+pub(super) const VISCOUS_SLIP: f64 = 0.5;
 
-/// ω₁: a clutch that slips so fast carries twice its torque, rad/s.
-pub(super) const GREASE: f64 = 0.5;
-
-/// What a touch belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
-    /// A pair of colliders.
-    Pair(usize),
-    /// A bound of a limit; beyond all of these, a clutch that slips.
-    Bound(usize),
+/// A range of indices: from `start` to the one before `end`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct IndexRange {
+    pub start: usize,
+    pub end: usize,
 }
 
-/// A touching point or a reached bound.
+impl IndexRange {
+    /// How many indices there are.
+    pub fn len(self) -> usize {
+        self.end - self.start
+    }
+
+    /// The same as a range of the standard library.
+    pub fn range(self) -> Range<usize> {
+        self.start..self.end
+    }
+}
+
+/// What can come into contact: surfaces, or a joint and the bound of its limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ContactSource {
+    /// A pair of colliders, by its index.
+    Pair(usize),
+    /// A bound of a limit, by its index.
+    Limit(usize),
+}
+
+/// What a contact force belongs to from one substep to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ForceSource {
+    /// A contact point of this pair of colliders.
+    Point(usize),
+    /// The rolling resistance of a contact point of this pair.
+    Rolling(usize),
+    /// This bound of a limit.
+    Limit(usize),
+    /// This clutch, slipping.
+    Clutch(usize),
+}
+
+/// The kinds of contacts, each with what it alone has.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum ContactKind {
+    /// A point between two surfaces: three rows.
+    Point {
+        /// Index of the pair of colliders.
+        pair: usize,
+        /// Coulomb coefficient.
+        friction: f64,
+    },
+    /// A bound of a joint limit: one row.
+    Limit {
+        /// Index of the bound.
+        bound: usize,
+    },
+    /// Rolling resistance and drilling friction of a contact point: three rows.
+    Rolling {
+        /// Index of the pair of colliders.
+        pair: usize,
+        /// Index of the point's own contact, which comes before this one.
+        point: usize,
+        /// Most couple for a normal force.
+        resistance: RollingResistance,
+    },
+    /// A clutch that slips, or could stick again: one row.
+    Clutch {
+        /// Index of the clutch.
+        clutch: usize,
+        /// τ h: the most that it may carry, N m s.
+        max_impulse: f64,
+        /// It slips; else it is tried as sticking.
+        slips: bool,
+    },
+    /// A force of the last substep whose contact is gone: one row along that force, which the solver unloads.
+    Removed {
+        /// What the force belonged to.
+        source: ForceSource,
+    },
+}
+
+/// One contact of the problem.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
-    pub source: Source,
+    pub kind: ContactKind,
     /// World point, m.
     pub point: DVec3,
-    /// Unit, from the second collider to the first.
+    /// Unit normal, from the second collider to the first; zero where the kind has none.
     pub normal: DVec3,
-    /// Distance, m; or what is left to the bound, rad or m.
+    /// Distance of the surfaces, m, or from the bound, rad or m; infinite where the kind has none.
     pub gap: f64,
-    /// Coulomb coefficient; a bound has none.
-    pub friction: f64,
-    /// Least normal velocity t, m/s.
-    pub least: f64,
-    /// Impulse that has acted already, (n, t, b), N s.
-    pub before: DVec3,
-    /// Impulse, (n, t, b), N s.
+    /// Least allowed velocity along the first row, m/s.
+    pub min_velocity: f64,
+    /// Coefficient of restitution, of an impact.
+    pub restitution: f64,
+    /// Impulse that has already acted, N s.
+    pub applied: DVec3,
+    /// Impulse, N s.
     pub impulse: DVec3,
-    /// Impulse that the rounds begin from.
-    pub begin: DVec3,
-    /// Of a couple: what it resists, and its point.
-    pub twist: Option<Twist>,
-    /// Of a clutch: what it may carry.
-    pub grip: Option<Grip>,
-    /// Where the force that it began from acted.
-    pub follows: Option<DVec3>,
-    /// Its rows in the problem: `first` up to `first + rows`.
-    pub first: usize,
-    pub rows: usize,
-    /// Its parts among the coordinates, from the first to the one after the last.
-    pub(super) parts: (usize, usize),
-    /// What it answers to its own impulse.
-    pub answer: EffectiveInverseMass,
+    /// Impulse that the solver starts from, N s.
+    pub initial: DVec3,
+    /// Where the force that it continues acted, m.
+    pub previous_point: Option<DVec3>,
+    /// Its rows in the problem.
+    pub rows: IndexRange,
+    /// Its blocks in the reduced coordinates.
+    pub blocks: IndexRange,
+    /// Response to its own impulse.
+    pub inverse_mass: EffectiveInverseMass,
 }
 
 impl Contact {
-    /// A touch without impulse.
-    pub fn new(source: Source, point: DVec3, normal: DVec3, gap: f64, friction: f64) -> Self {
+    /// A contact without impulse.
+    pub fn new(kind: ContactKind, point: DVec3, normal: DVec3, gap: f64) -> Self {
         Self {
-            source,
+            kind,
             point,
             normal,
             gap,
-            friction,
-            least: 0.0,
-            before: DVec3::ZERO,
+            min_velocity: 0.0,
+            restitution: 0.0,
+            applied: DVec3::ZERO,
             impulse: DVec3::ZERO,
-            begin: DVec3::ZERO,
-            twist: None,
-            grip: None,
-            follows: None,
-            first: 0,
-            rows: 0,
-            parts: (0, 0),
-            answer: EffectiveInverseMass::default(),
+            initial: DVec3::ZERO,
+            previous_point: None,
+            rows: IndexRange::default(),
+            blocks: IndexRange::default(),
+            inverse_mass: EffectiveInverseMass::default(),
         }
     }
 
-    /// Is it a point or a bound, which pushes and never pulls?
-    pub fn pushes(&self) -> bool {
-        self.twist.is_none() && self.grip.is_none()
+    /// A contact without a gap: bodies are never moved out of it.
+    pub fn without_gap(kind: ContactKind, point: DVec3, normal: DVec3) -> Self {
+        Self::new(kind, point, normal, f64::INFINITY)
     }
 
-    /// Effective inverse mass block (n, t, b), 1/kg.
-    pub fn k(&self) -> &DMat3 {
-        &self.answer.k
+    /// The surfaces or bound of a point or limit; `None` for the other kinds.
+    pub fn source(&self) -> Option<ContactSource> {
+        match self.kind {
+            ContactKind::Point { pair, .. } => Some(ContactSource::Pair(pair)),
+            ContactKind::Limit { bound } => Some(ContactSource::Limit(bound)),
+            _ => None,
+        }
+    }
+
+    /// What its force belongs to from one substep to the next.
+    pub fn force_source(&self) -> ForceSource {
+        match self.kind {
+            ContactKind::Point { pair, .. } => ForceSource::Point(pair),
+            ContactKind::Limit { bound } => ForceSource::Limit(bound),
+            ContactKind::Rolling { pair, .. } => ForceSource::Rolling(pair),
+            ContactKind::Clutch { clutch, .. } => ForceSource::Clutch(clutch),
+            ContactKind::Removed { source } => source,
+        }
+    }
+
+    /// The pair of colliders, of a contact point.
+    pub fn point_pair(&self) -> Option<usize> {
+        match self.kind {
+            ContactKind::Point { pair, .. } => Some(pair),
+            _ => None,
+        }
+    }
+
+    /// The contact whose normal impulse bounds this one, of a rolling resistance.
+    pub fn bounding_point(&self) -> Option<usize> {
+        match self.kind {
+            ContactKind::Rolling { point, .. } => Some(point),
+            _ => None,
+        }
     }
 }
 
-/// Resistance of two surfaces to turning on each other, by the force that presses them together.
+/// Resistance of two surfaces to rolling and spinning on each other, in proportion to the normal force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RollingResistance {
-    /// b: couple against rolling, at most, over the normal force, m.
+    /// b: largest couple against rolling over the normal force, m.
     pub rolling: f64,
-    /// d: couple against spin about the normal, at most, over the normal force, m.
+    /// d: largest couple against spin about the normal over the normal force, m.
     pub spinning: f64,
 }
 
 impl RollingResistance {
-    /// Do the surfaces turn freely on each other?
+    /// Whether the surfaces roll and spin freely.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
-}
-
-/// The couple of a point.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Twist {
-    /// Index of the point's own touch.
-    pub of: usize,
-    pub resistance: RollingResistance,
-}
-
-/// What a clutch that slips may carry.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Grip {
-    pub clutch: usize,
-    /// τ h, N m s.
-    pub most: f64,
-    /// Would it carry too much if it took hold?
-    pub slips: bool,
 }

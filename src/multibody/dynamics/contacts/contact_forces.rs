@@ -1,151 +1,165 @@
-//! The forces that hold what rests, from one substep to the next: where they act, and how their levers move with the bodies.
+//! Contact forces of resting contacts from one substep to the next: where they act, and how their arms move with the bodies.
 
-use super::contact::{Contact, Source};
+use super::contact::{Contact, ForceSource};
 use super::contact_problem::ContactProblem;
 use super::jacobian_row::MAX_ROW_BODIES;
 use crate::articulation::System;
-use crate::dynamics::clutches::Clutches;
+use crate::dynamics::clutches::{Clutches, SlippedClutch};
 use crate::dynamics::joint_loads::least_inertia_across;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, angular, linear, vec6};
 use soffio_math::{DQuat, DVec3, rotation, rotation_vector, tangents};
 
-/// Points nearer than this are one, however slow their bodies, m.
-pub(super) const NEAR: f64 = 1e-4;
-/// Substeps whose lengths differ by less than this share are of one length.
-const SAME_SPAN: f64 = 1e-9;
-/// Ways found in a substep are not drawn out farther than this: what moved in a very short one may be a jump.
-const MOST_STRETCH: f64 = 4.0;
-/// Forces that pass each other by less than this are on one line, m: rounding.
+/// Contact points nearer than this continue each other, however slow their bodies, m.
+pub(super) const SAME_POINT: f64 = 1e-4;
+/// Lengths of substeps that differ by less than this fraction are equal.
+const SAME_LENGTH: f64 = 1e-9;
+/// Displacements of a substep are extrapolated by this factor at most: those of a very short one may be jumps.
+const MAX_EXTRAPOLATION: f64 = 4.0;
+/// Lines of action nearer than this coincide, m: rounding.
 const IN_LINE: f64 = 1e-14;
-/// Largest phase ω h of a body that tips under the forces that hold it, in one substep, rad: a light body under a heavy one.
-const TIP_PHASE: f64 = 1.0;
-/// Room for forces of what sleeps, and of what wakes again: sixteen times as many as are solved for at once.
-const MOST_KEPT: usize = 1024;
+/// Largest phase ω h of a tipping body in one substep, rad: a light body under a heavy one.
+const TIPPING_PHASE: f64 = 1.0;
+/// Capacity for forces of sleeping bodies, and of those that wake: sixteen times as many as are solved for at once.
+const CAPACITY: usize = 1024;
 
-/// Force that holds a touch, from the last substep that it was needed in.
+/// The force of one resting contact, found in the last substep in which it acted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactForce {
-    pub source: Source,
-    /// Is it a couple, which has no lever?
-    pub couple: bool,
+    pub source: ForceSource,
     /// World point, m.
     pub point: DVec3,
-    /// World force on the first body, N, or couple, N m; a bound's along its row in x.
+    /// World force (N) or, of a rolling resistance, couple (N m) on the first body; in x along the row of a limit or clutch.
     pub force: DVec3,
-    /// Length of the substep that it was found in, s.
-    pub span: f64,
-    /// Normal where it acted so, and the rotation vector of its turn in a substep of that length, rad.
+    /// Length of the substep in which it was found, s.
+    pub substep: f64,
+    /// World normal at `point`.
     pub normal: DVec3,
-    turn: DVec3,
+    /// Rotation vector of the normal over a substep of that length, rad.
+    normal_rotation: DVec3,
     /// How it acts on its bodies.
-    pub ends: [Option<ContactArm>; MAX_ROW_BODIES],
+    pub arms: [Option<ContactArm>; MAX_ROW_BODIES],
 }
 
-/// One end of a held force.
+/// How a contact force acts on one body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactArm {
     pub body: usize,
-    /// Wrench of a bound per unit force, and its change in a substep of that length.
-    block: Vec6,
-    block_change: Vec6,
-    /// From the body's centre to the point of a contact, m, and its way in a substep of that length.
-    arm: DVec3,
-    pub way: DVec3,
+    /// Wrench of a unit force of a limit or clutch, and its change over a substep of that length.
+    jacobian: Vec6,
+    jacobian_change: Vec6,
+    /// From the body's centre of mass to the contact point, m.
+    offset: DVec3,
+    /// Displacement of the contact point relative to the centre over a substep of that length, m.
+    pub displacement: DVec3,
 }
 
-/// All forces that hold what rests. Nothing here allocates after [`ContactForces::new`].
+/// A substep whose forces are stored.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SolvedSubstep<'a> {
+    /// Length, s.
+    pub h: f64,
+    /// It is accepted; else it is integrated again from its start.
+    pub accepted: bool,
+    /// The bodies at its start.
+    pub start: &'a [RigidBody],
+}
+
+/// The forces of all resting contacts. Nothing here allocates after [`ContactForces::new`].
 #[derive(Clone, Debug)]
 pub(super) struct ContactForces {
-    pub held: Vec<ContactForce>,
-    /// Those that the present substep begins with, where a clutch holds that may yet give way.
-    began: Vec<ContactForce>,
-    /// Those before them.
-    former: Vec<ContactForce>,
-    /// Those among bodies that sleep.
-    pub kept: Vec<ContactForce>,
-    /// Length of the substep that they are laid out for, s.
-    pub span: f64,
-    /// Greatest ω² with which a body under the forces that hold it would tip out of its place, 1/s², and those of the bodies.
-    tips: f64,
+    /// Those of bodies that are awake.
+    pub active: Vec<ContactForce>,
+    /// Those at the start of the present substep, while a sticking clutch may yet slip.
+    at_start: Vec<ContactForce>,
+    /// Those of the last pass.
+    previous: Vec<ContactForce>,
+    /// Those of sleeping bodies.
+    pub asleep: Vec<ContactForce>,
+    /// Length of the substep for which they are prepared, s.
+    pub substep: f64,
+    /// ω² at which each body would tip over under its forces, and the greatest, 1/s².
     tipping: Vec<f64>,
+    max_tipping: f64,
 }
 
 impl ContactForces {
-    /// Room for those of so many touches, and for as many as are solved for at once.
+    /// Capacity for the forces of so many contacts, of which `at_once` are solved for together.
     pub fn new(contacts: usize, at_once: usize, bodies: usize) -> Self {
-        let room = contacts.min(MOST_KEPT);
+        let capacity = contacts.min(CAPACITY);
         Self {
-            held: Vec::with_capacity(room),
-            began: Vec::with_capacity(room),
-            former: Vec::with_capacity(at_once),
-            kept: Vec::with_capacity(room),
-            span: 0.0,
-            tips: 0.0,
+            active: Vec::with_capacity(capacity),
+            at_start: Vec::with_capacity(capacity),
+            previous: Vec::with_capacity(at_once),
+            asleep: Vec::with_capacity(capacity),
+            substep: 0.0,
             tipping: vec![0.0; bodies],
+            max_tipping: 0.0,
         }
     }
 
-    /// Forgets all of them.
-    pub fn forget(&mut self) {
-        self.held.clear();
-        self.kept.clear();
+    /// Removes all forces.
+    pub fn clear(&mut self) {
+        self.active.clear();
+        self.asleep.clear();
     }
 
-    /// Lays them out for a substep of `h` seconds.
-    pub fn prepare_contact_forces(&mut self, h: f64) {
-        if (h - self.span).abs() > SAME_SPAN * h {
-            self.span = h;
+    /// Prepares the forces for a substep of `h` seconds.
+    pub fn prepare(&mut self, h: f64) {
+        if (h - self.substep).abs() > SAME_LENGTH * h {
+            self.substep = h;
         }
     }
 
-    /// Forgets those found in much shorter substeps than `h` seconds: they are impulses rather than forces.
-    pub fn drop_short(&mut self, h: f64) {
-        self.held.retain(|held| held.span > 0.5 * h);
+    /// Removes forces of substeps much shorter than `h` seconds: they are impulses rather than forces.
+    pub fn remove_impulsive(&mut self, h: f64) {
+        self.active.retain(|force| force.substep > 0.5 * h);
     }
 
     /// Longest substep in which no body tips far, s.
     pub fn longest_substep(&self) -> f64 {
-        TIP_PHASE / self.tips.sqrt()
+        TIPPING_PHASE / self.max_tipping.sqrt()
     }
 
-    /// Keeps apart those among bodies that sleep, and takes up again those of bodies that have woken.
-    pub fn let_sleep(&mut self, asleep: &[bool]) {
-        let sleeps = |held: &ContactForce| held.ends.iter().flatten().any(|lever| asleep[lever.body]);
-        let moves = |from: &mut Vec<ContactForce>, to: &mut Vec<ContactForce>, which: bool| {
-            to.extend(from.iter().filter(|held| sleeps(held) == which));
-            from.retain(|held| sleeps(held) != which);
+    /// Sets which bodies sleep: their forces are kept aside, and those of bodies that woke act again.
+    pub fn set_asleep(&mut self, asleep: &[bool]) {
+        let sleeps = |force: &ContactForce| force.arms.iter().flatten().any(|arm| asleep[arm.body]);
+        let transfer = |from: &mut Vec<ContactForce>, to: &mut Vec<ContactForce>, which: bool| {
+            to.extend(from.iter().filter(|force| sleeps(force) == which));
+            from.retain(|force| sleeps(force) != which);
         };
-        moves(&mut self.held, &mut self.kept, true);
-        moves(&mut self.kept, &mut self.held, false);
+        transfer(&mut self.active, &mut self.asleep, true);
+        transfer(&mut self.asleep, &mut self.active, false);
     }
 
-    /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
-    pub fn apply_contact_forces(&self, external: &mut [Vec6]) {
+    /// Adds the forces to the bodies' wrenches, each at its point in the middle of the substep.
+    pub fn apply(&self, external: &mut [Vec6]) {
         for (body, wrench) in self.wrenches() {
             add_scaled(&mut external[body], 1.0, &wrench);
         }
     }
 
     fn wrenches(&self) -> impl Iterator<Item = (usize, Vec6)> {
-        self.held.iter().flat_map(|held| held.wrenches(self.span))
+        self.active.iter().flat_map(|force| force.wrenches(self.substep))
     }
 
-    /// Work of those forces between two states of the bodies, J.
+    /// Work of the forces between two states of the bodies, J.
     pub fn work(&self, start: &[RigidBody], end: &[RigidBody]) -> f64 {
         let work = |(body, wrench): (usize, Vec6)| {
             let (from, to) = (&start[body], &end[body]);
-            let turn = to.rotation * from.rotation.conjugate();
-            let turn = rotation_vector(if turn.w < 0.0 { -turn } else { turn });
-            linear(&wrench).dot(to.position - from.position) + angular(&wrench).dot(turn)
+            let change = to.rotation * from.rotation.conjugate();
+            let angle = rotation_vector(if change.w < 0.0 { -change } else { change });
+            linear(&wrench).dot(to.position - from.position) + angular(&wrench).dot(angle)
         };
         self.wrenches().map(work).sum()
     }
 
-    /// Lets the two forces of each held pair act on one line: turns their bodies by what the levers, which stood still for
-    /// the substep, have missed. With x̄ a body's mean place over it, r the lever that the force F on it had, and
-    /// p̄ = ½ (x̄_a + r_a + x̄_b + r_b), body i lacks h (p̄ − x̄_i − r_i) × F_i; then angular momentum is kept as both turn
-    /// about p̄. For motion of constant acceleration x̄ = ½ (x₀ + x₁) − h (v₁ − v₀)/12 without error. Answers the work, J.
+    /// Restores angular momentum: gives both bodies of each contact the angular impulse that their forces missed, because the
+    /// arms were constant over the substep. Returns its work, J.
+    ///
+    /// With x̄ a body's mean position over the substep, r the arm of the force F on it, and p̄ = ½ (x̄_a + r_a + x̄_b + r_b), body i
+    /// misses h (p̄ − x̄_i − r_i) × F_i. Both forces then act along one line through p̄. For constant acceleration
+    /// x̄ = ½ (x₀ + x₁) − h (v₁ − v₀)/12 is exact.
     pub fn correct_contact_torque(
         &self,
         h: f64,
@@ -155,27 +169,27 @@ impl ContactForces {
     ) -> f64 {
         system.b.fill([0.0; 6]);
         let (mut any, mut work) = (false, 0.0);
-        for held in &self.held {
-            let ([Some(a), Some(b), _], Source::Pair(_), false) = (&held.ends, held.source, held.couple) else {
+        for force in &self.active {
+            let ([Some(a), Some(b), _], ForceSource::Point(_)) = (&force.arms, force.source) else {
                 continue;
             };
-            let stretch = held.stretch(self.span);
-            let place = |lever: &ContactArm| {
-                let (from, to) = (&start[lever.body], &bodies[lever.body]);
+            let extrapolation = force.extrapolation(self.substep);
+            let mean_point = |arm: &ContactArm| {
+                let (from, to) = (&start[arm.body], &bodies[arm.body]);
                 let mean = 0.5 * (from.position + to.position) - (to.velocity - from.velocity) * (h / 12.0);
-                mean + lever.arm + stretch * lever.way
+                mean + arm.offset + extrapolation * arm.displacement
             };
-            let force = held.acting(self.span);
-            let apart = place(b) - place(a);
+            let acting = force.acting(self.substep);
+            let apart = mean_point(b) - mean_point(a);
             if apart.length_squared() <= IN_LINE * IN_LINE {
                 continue;
             }
-            let lacks = (0.5 * h) * apart.cross(force);
-            // Half the way to p̄ for either, with opposite forces: the same torque on both.
-            for lever in [a, b] {
-                system.push_impulse(lever.body, &vec6(DVec3::ZERO, lacks), 1.0);
-                let spin = |bodies: &[RigidBody]| bodies[lever.body].angular_velocity;
-                work += 0.5 * lacks.dot(spin(start) + spin(bodies));
+            let missing = (0.5 * h) * apart.cross(acting);
+            // Each is half of the distance from p̄, and the forces are opposite: both miss the same angular impulse.
+            for arm in [a, b] {
+                system.push_impulse(arm.body, &vec6(DVec3::ZERO, missing), 1.0);
+                let spin = |bodies: &[RigidBody]| bodies[arm.body].angular_velocity;
+                work += 0.5 * missing.dot(spin(start) + spin(bodies));
             }
             any = true;
         }
@@ -186,158 +200,157 @@ impl ContactForces {
         work
     }
 
-    /// Remembers the forces, to begin the next substep or this one anew, as far as they are good enough to begin from.
-    pub fn remember(
-        &mut self,
-        problem: &ContactProblem,
-        (h, stands): (f64, bool),
-        start: &[RigidBody],
-        bodies: &[RigidBody],
-    ) {
-        self.former.clear();
-        std::mem::swap(&mut self.former, &mut self.held);
-        self.tips = 0.0;
+    /// Stores the forces of a solved problem, for the next substep or to repeat this one. Impulses that are no accurate start are
+    /// left out.
+    pub fn store(&mut self, problem: &ContactProblem, substep: SolvedSubstep, bodies: &[RigidBody]) {
+        let SolvedSubstep { h, accepted, start } = substep;
+        self.previous.clear();
+        std::mem::swap(&mut self.previous, &mut self.active);
+        self.max_tipping = 0.0;
         if problem.has_open_joints() {
             return;
         }
         self.tipping.fill(0.0);
         for (index, contact) in problem.contacts.iter().enumerate() {
-            if contact.impulse == DVec3::ZERO || !problem.is_good(index) {
+            if contact.impulse == DVec3::ZERO || !problem.is_warm_start(index) {
                 continue;
             }
-            let former =
-                self.former.iter().find(|held| held.belongs_to(contact) && contact.follows == Some(held.point));
-            let row = &problem.rows[contact.first];
-            let gone = |body: usize| bodies[body].position - start[body].position;
+            let source = contact.force_source();
+            let continues =
+                |force: &&ContactForce| force.source == source && contact.previous_point == Some(force.point);
+            let previous = self.previous.iter().find(continues);
+            let row = &problem.rows[contact.rows.start];
+            let body_displacement = |body: usize| bodies[body].position - start[body].position;
             let ends = || row.ends.iter().flatten();
-            // A new point goes with its bodies' centres.
-            let mean = || ends().map(|(body, _)| gone(*body)).sum::<DVec3>() / ends().count() as f64;
-            let along = former.map_or_else(mean, |held| contact.point - held.point);
-            // The normal turns as surfaces curve: forces and levers are kept as they are at the start of what comes.
-            let turn = former.map_or(DVec3::ZERO, |held| held.normal.cross(contact.normal));
-            let lever = |end: usize| {
+            // A new point moves with its bodies' centres of mass.
+            let mean = || ends().map(|(body, _)| body_displacement(*body)).sum::<DVec3>() / ends().count() as f64;
+            let displacement = previous.map_or_else(mean, |force| contact.point - force.point);
+            // The normal turns with curved surfaces. Forces and arms are stored as they are where the next pass starts.
+            let normal_rotation = previous.map_or(DVec3::ZERO, |force| force.normal.cross(contact.normal));
+            let arm = |end: usize| {
                 let (body, block) = row.ends[end]?;
-                let (arm, way) = (contact.point - bodies[body].position, along - gone(body));
-                let before = former.and_then(|held| held.ends[end]).map_or(block, |lever| lever.block);
-                let block_change = std::array::from_fn(|k| block[k] - before[k]);
-                let (arm, block) = if stands { (arm, block) } else { (arm - way, before) };
-                Some(ContactArm { body, block, block_change, arm, way })
+                let (offset, relative) =
+                    (contact.point - bodies[body].position, displacement - body_displacement(body));
+                let before = previous.and_then(|force| force.arms[end]).map_or(block, |arm| arm.jacobian);
+                let jacobian_change = std::array::from_fn(|k| block[k] - before[k]);
+                let (offset, jacobian) = if accepted { (offset, block) } else { (offset - relative, before) };
+                Some(ContactArm { body, jacobian, jacobian_change, offset, displacement: relative })
             };
-            let back = if stands { DQuat::IDENTITY } else { rotation(-turn) };
-            self.held.push(ContactForce {
-                source: contact.source,
-                couple: contact.twist.is_some(),
-                point: if stands { contact.point } else { contact.point - along },
-                force: back * world(contact) / h,
-                span: h,
+            let back = if accepted { DQuat::IDENTITY } else { rotation(-normal_rotation) };
+            self.active.push(ContactForce {
+                source,
+                point: if accepted { contact.point } else { contact.point - displacement },
+                force: back * world_impulse(contact) / h,
+                substep: h,
                 normal: back * contact.normal,
-                turn,
-                ends: std::array::from_fn(lever),
+                normal_rotation,
+                arms: std::array::from_fn(arm),
             });
         }
-        // A force f that stands still while its body tips about a point at the arm r drives it on with ω² = |f| |r|/I⊥.
-        for held in self.held.iter().filter(|held| matches!(held.source, Source::Pair(_)) && !held.couple) {
-            for lever in held.ends.iter().flatten() {
-                let inertia = least_inertia_across(&bodies[lever.body].inertia_world(), lever.arm);
-                let tipping = &mut self.tipping[lever.body];
-                *tipping += held.force.length() * lever.arm.length() / inertia;
-                self.tips = self.tips.max(*tipping);
+        // A force f that is constant while its body tips about a point at the arm r accelerates it with ω² = |f| |r|/I⊥.
+        for force in self.active.iter().filter(|force| matches!(force.source, ForceSource::Point(_))) {
+            for arm in force.arms.iter().flatten() {
+                let inertia = least_inertia_across(&bodies[arm.body].inertia_world(), arm.offset);
+                let tipping = &mut self.tipping[arm.body];
+                *tipping += force.force.length() * arm.offset.length() / inertia;
+                self.max_tipping = self.max_tipping.max(*tipping);
             }
         }
     }
 
-    /// Keeps the forces that the substep begins with, for the case that it is gone through again.
+    /// Keeps the forces at the start of a substep, in case a clutch slips and it is repeated.
     pub fn begin_substep(&mut self, clutches: &Clutches) {
-        if clutches.any_holds() {
-            self.began.clone_from(&self.held);
+        if clutches.any_sticks() {
+            self.at_start.clone_from(&self.active);
         }
     }
 
-    /// Lets slip what carries too much at the end of a pass. Did anything? Then the substep is to be gone through
-    /// again, and begins as it did, with what the clutch carried.
-    pub fn slip_overloaded(&mut self, clutches: &mut Clutches, bounds: usize, system: &mut System) -> bool {
-        let Self { held, began, span, .. } = self;
-        let slips = clutches.slip_overloaded(system, |index, row, load| {
-            let still =
-                |(body, block)| ContactArm { body, block, block_change: [0.0; 6], arm: DVec3::ZERO, way: DVec3::ZERO };
-            began.push(ContactForce {
-                source: Source::Bound(bounds + index),
-                couple: false,
+    /// Lets overloaded clutches slip at the end of a pass. Returns whether any does; the forces are then those at the substep's
+    /// start and those that the clutches carried, for a repetition of the substep.
+    pub fn slip_overloaded(&mut self, clutches: &mut Clutches, system: &mut System) -> bool {
+        let Self { active, at_start, substep, .. } = self;
+        let slips = clutches.slip_overloaded(system, |SlippedClutch { clutch, row, carried }| {
+            let arm = |(body, jacobian)| ContactArm {
+                body,
+                jacobian,
+                jacobian_change: [0.0; 6],
+                offset: DVec3::ZERO,
+                displacement: DVec3::ZERO,
+            };
+            at_start.push(ContactForce {
+                source: ForceSource::Clutch(clutch),
                 point: DVec3::ZERO,
-                force: DVec3::X * load,
-                span: *span,
+                force: DVec3::X * carried,
+                substep: *substep,
                 normal: DVec3::ZERO,
-                turn: DVec3::ZERO,
-                ends: row.ends.map(|end| end.map(still)),
+                normal_rotation: DVec3::ZERO,
+                arms: row.ends.map(|end| end.map(arm)),
             });
         });
         if slips {
-            held.clone_from(began);
+            active.clone_from(at_start);
         }
         slips
     }
 }
 
 impl ContactForce {
-    /// Can a touch be what it has held?
-    pub fn belongs_to(&self, contact: &Contact) -> bool {
-        self.source == contact.source && self.couple == contact.twist.is_some()
-    }
-
-    /// The bodies it acts on and its wrenches there in a substep of `h` seconds, N and N m about their centres.
+    /// Its wrenches on its bodies in a substep of `h` seconds, N and N m about their centres of mass.
     fn wrenches(&self, h: f64) -> impl Iterator<Item = (usize, Vec6)> {
-        let (force, stretch) = (self.acting(h), self.stretch(h));
-        self.ends.iter().zip([1.0, -1.0, 0.0]).filter_map(move |(lever, sign)| {
-            let lever = lever.as_ref()?;
+        let (force, extrapolation) = (self.acting(h), self.extrapolation(h));
+        self.arms.iter().zip([1.0, -1.0, 0.0]).filter_map(move |(arm, sign)| {
+            let arm = arm.as_ref()?;
             let wrench = match self.source {
-                Source::Pair(_) if self.couple => vec6(DVec3::ZERO, sign * force),
-                Source::Pair(_) => vec6(sign * force, (lever.arm + stretch * lever.way).cross(sign * force)),
-                Source::Bound(_) => {
-                    std::array::from_fn(|k| (lever.block[k] + stretch * lever.block_change[k]) * self.force.x)
+                ForceSource::Rolling(_) => vec6(DVec3::ZERO, sign * force),
+                ForceSource::Point(_) => {
+                    vec6(sign * force, (arm.offset + extrapolation * arm.displacement).cross(sign * force))
+                }
+                ForceSource::Limit(_) | ForceSource::Clutch(_) => {
+                    std::array::from_fn(|k| (arm.jacobian[k] + extrapolation * arm.jacobian_change[k]) * self.force.x)
                 }
             };
-            Some((lever.body, wrench))
+            Some((arm.body, wrench))
         })
     }
 
-    /// Its force as the normal will stand in the middle of a substep of `h` seconds, N.
+    /// The force, turned with the normal to the middle of a substep of `h` seconds, N.
     pub fn acting(&self, h: f64) -> DVec3 {
-        rotation(self.stretch(h) * self.turn) * self.force
+        rotation(self.extrapolation(h) * self.normal_rotation) * self.force
     }
 
-    /// Half a substep of `h` seconds, in spans of the one in which its ways were found.
-    fn stretch(&self, h: f64) -> f64 {
-        0.5 * (h / self.span).min(MOST_STRETCH)
+    /// Half a substep of `h` seconds over the substep in which its displacements were found.
+    fn extrapolation(&self, h: f64) -> f64 {
+        0.5 * (h / self.substep).min(MAX_EXTRAPOLATION)
+    }
+
+    /// The force in the frame (n, t, b) of a contact that continues it, turned with the normal.
+    pub fn in_frame(&self, contact: &Contact) -> DVec3 {
+        match self.source {
+            ForceSource::Point(_) | ForceSource::Rolling(_) => {
+                let (t, b) = tangents(contact.normal);
+                let force = rotation(self.normal.cross(contact.normal)) * self.force;
+                DVec3::new(force.dot(contact.normal), force.dot(t), force.dot(b))
+            }
+            ForceSource::Limit(_) | ForceSource::Clutch(_) => DVec3::new(self.force.x, 0.0, 0.0),
+        }
     }
 }
 
 impl ContactArm {
-    /// How fast its point can move, m/s.
+    /// Largest speed of its contact point, m/s.
     pub fn speed(&self, bodies: &[RigidBody]) -> f64 {
         let body = &bodies[self.body];
-        body.velocity.length() + body.angular_velocity.length() * self.arm.length()
+        body.velocity.length() + body.angular_velocity.length() * self.offset.length()
     }
 }
 
-/// A touch's impulse or couple in the world; a bound's along its row in x.
-fn world(contact: &Contact) -> DVec3 {
-    match contact.source {
-        Source::Pair(_) => {
+/// Impulse of a contact in the world, N s; in x along the row of a limit or clutch.
+fn world_impulse(contact: &Contact) -> DVec3 {
+    match contact.force_source() {
+        ForceSource::Point(_) | ForceSource::Rolling(_) => {
             let (t, b) = tangents(contact.normal);
             contact.impulse.x * contact.normal + contact.impulse.y * t + contact.impulse.z * b
         }
-        Source::Bound(_) => contact.impulse,
-    }
-}
-
-/// A held force in a touch's own frame (n, t, b), turned with the normal.
-pub(super) fn in_frame(contact: &Contact, held: &ContactForce) -> DVec3 {
-    match contact.source {
-        Source::Pair(_) => {
-            let (t, b) = tangents(contact.normal);
-            let force = rotation(held.normal.cross(contact.normal)) * held.force;
-            DVec3::new(force.dot(contact.normal), force.dot(t), force.dot(b))
-        }
-        Source::Bound(_) => DVec3::new(held.force.x, 0.0, 0.0),
+        ForceSource::Limit(_) | ForceSource::Clutch(_) => contact.impulse,
     }
 }

@@ -1,71 +1,73 @@
-//! The first hit of a substep: swept boxes (the broad phase), then conservative advancement.
+//! The earliest impact of a substep, by continuous collision detection: swept boxes, then conservative advancement.
 //!
-//! What touches at the beginning and opens there is not hit; if it has sunk in by the end it was thrown and came back
-//! within the substep, and the time at which it did is found by bisection.
+//! A pair in contact at the substep's beginning that opens there has no impact. If it overlaps at the end, it was thrown and
+//! returned within the substep; bisection finds that time.
 
-use super::contact::Source;
+use super::contact::ContactSource;
 use super::state::Contacts;
-use crate::collision::{Pair, TimeOfImpact};
+use crate::collision::TimeOfImpact;
 use soffio_geometry::bodies::RigidBody;
 
-/// The first hit of a substep.
+/// The earliest impact of a substep.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::dynamics) struct EarliestImpact {
-    /// Share of the substep.
+    /// Fraction of the substep after which it happens.
     pub s: f64,
-    pub(super) source: Source,
+    pub(super) source: ContactSource,
 }
 
 impl Contacts {
-    /// The first hit of anything that is apart, between two states of the bodies.
-    pub(in crate::dynamics) fn first_impact(
+    /// The earliest impact between two states of the bodies, of pairs and bounds that do not rest.
+    pub(in crate::dynamics) fn earliest_impact(
         &mut self,
         before: &[RigidBody],
         after: &[RigidBody],
     ) -> Option<EarliestImpact> {
-        self.near.find(before, after, &self.sleeping.bodies);
-        let mut first: Option<EarliestImpact> = None;
-        for near in 0..self.near.list.len() {
-            self.meet(self.near.list[near], before, after, &mut first);
+        self.nearby.find(before, after, &self.sleeping.bodies);
+        let mut earliest: Option<EarliestImpact> = None;
+        for index in 0..self.nearby.list.len() {
+            let pair = self.nearby.list[index];
+            if let Some(TimeOfImpact { s, .. }) = self.time_of_impact(pair, before, after) {
+                self.take_earlier(EarliestImpact { s, source: ContactSource::Pair(pair) }, &mut earliest);
+            }
         }
         for bound in 0..self.limits.count() {
-            if self.limits.resting(bound) || self.limits.sleeps(bound) {
+            if self.limits.is_resting(bound) || self.limits.is_asleep(bound) {
                 continue;
             }
-            if let Some(s) = self.limits.crossing(bound, before, after, &self.near.sweeps) {
-                if self.impacts_left == 0 {
-                    self.resting.set_bound(bound, true, &mut self.limits);
-                } else if first.is_none_or(|f| s < f.s) {
-                    first = Some(EarliestImpact { s, source: Source::Bound(bound) });
-                }
+            if let Some(s) = self.limits.crossing(bound, before, after, &self.nearby.sweeps) {
+                self.take_earlier(EarliestImpact { s, source: ContactSource::Limit(bound) }, &mut earliest);
             }
         }
-        first
+        earliest
     }
 
-    /// The earliest hit so far, or an earlier one of this pair.
-    fn meet(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody], first: &mut Option<EarliestImpact>) {
-        let Some(TimeOfImpact { s, .. }) = self.meets(pair, before, after) else { return };
+    /// Takes an impact if it is the earliest so far. When the step has no impacts left it becomes a resting contact instead.
+    fn take_earlier(&mut self, impact: EarliestImpact, earliest: &mut Option<EarliestImpact>) {
         if self.impacts_left == 0 {
-            self.resting.set(pair, true);
-        } else if first.is_none_or(|f| s < f.s) {
-            *first = Some(EarliestImpact { s, source: Source::Pair(pair) });
+            self.resting.set(impact.source, true, &mut self.limits);
+        } else if earliest.is_none_or(|other| impact.s < other.s) {
+            *earliest = Some(impact);
         }
     }
 
-    /// When and where a pair that does not rest meets on the way between two states.
-    pub(super) fn meets(&mut self, pair: usize, before: &[RigidBody], after: &[RigidBody]) -> Option<TimeOfImpact> {
-        if self.resting.pairs[pair] {
+    /// When and where a pair that does not rest comes into contact between two states.
+    pub(super) fn time_of_impact(
+        &mut self,
+        pair: usize,
+        before: &[RigidBody],
+        after: &[RigidBody],
+    ) -> Option<TimeOfImpact> {
+        if self.resting.is_resting[pair] {
             return None;
         }
-        let Pair { a, b } = self.surfaces.pairs[pair].pair;
-        let ((sweep_a, sweep_b), toi) = self.near.sweep_pair(&mut self.surfaces, pair);
-        let mut toi = toi?;
-        let states = if toi.s > 0.0 { after } else { before };
-        if self.surfaces.velocity_at(pair, toi.proximity.point, states).dot(toi.proximity.normal) >= 0.0 {
-            toi.s = self.surfaces.comes_back(a, b, &sweep_a, &sweep_b)?;
+        let swept = self.nearby.sweep_pair(&mut self.surfaces, pair);
+        let mut impact = swept.impact?;
+        let states = if impact.s > 0.0 { after } else { before };
+        if self.surfaces.velocity_at(pair, impact.proximity.point, states).dot(impact.proximity.normal) >= 0.0 {
+            impact.s = self.surfaces.return_time(pair, &swept)?;
         }
-        Some(toi)
+        Some(impact)
     }
 }
 
@@ -99,7 +101,7 @@ mod tests {
         colliders.push(Collider { body: None, shape: floor, material: 0, node: String::new() });
         let surface =
             |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3, resistance: RollingResistance::default() };
-        let figure = Articulation {
+        let articulation = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &[],
@@ -116,13 +118,13 @@ mod tests {
             integrator: Integrator::RungeKutta,
             solver: Solver::Sparse,
         };
-        Dynamics::new(figure, settings)
+        Dynamics::new(articulation, settings)
     }
 
     #[test]
     fn only_near_pairs_are_measured_and_nothing_changes_by_it() {
         let (mut near, mut all) = (crowd(24), crowd(24));
-        all.contacts.near.all = Some(all.contacts.surfaces.pairs.len());
+        all.contacts.nearby.all = Some(all.contacts.surfaces.pairs.len());
         let (mut few, mut many, mut hits) = (0, 0, [Vec::new(), Vec::new()]);
         for step in 0..120 {
             for (dynamics, hits) in [&mut near, &mut all].into_iter().zip(&mut hits) {

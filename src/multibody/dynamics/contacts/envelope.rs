@@ -1,38 +1,43 @@
-//! LU factor of a matrix whose elements lie between the first of each row or column and the diagonal.
+//! Envelope (skyline) LU factorization: elements lie between the first of each row or column and the diagonal.
 //!
-//! A = L U with the same envelope below as above: row i of A begins where column i does. L (ones on its diagonal) has no element
-//! before the first of A's row, nor U before the first of A's column, so that the work goes with the square of their lengths
-//! (A. George, J. Liu, Computer Solution of Large Sparse Positive Definite Systems, 1981, for the symmetric case). Both are
-//! stored so that every sum is one of two stretches of numbers. Sums run in four lanes that are added in a fixed order: the
-//! same bits whatever the processor.
+//! A = L U with a symmetric envelope: row i of A begins where column i does. L (ones on its diagonal) fills no element before the
+//! first of A's row, nor U before the first of A's column, so the work grows with the square of their lengths (A. George, J. Liu,
+//! Computer Solution of Large Sparse Positive Definite Systems, 1981, for the symmetric case). Both are stored so that every sum
+//! runs over two contiguous slices. Sums run in four lanes that are added in a fixed order: the same bits on every processor.
 
 use fearless_simd::{Level, Simd, dispatch};
 
-/// Sums are taken in so many lanes.
+/// Lanes of a sum.
 const LANES: usize = 4;
-/// A pivot that elimination leaves with less than this share of its diagonal element is rounding, and counts as this share.
-const LEAST_PIVOT: f64 = 1e-12;
+/// A smaller pivot than this fraction of its diagonal element is rounding, and is replaced by this fraction.
+const MIN_PIVOT: f64 = 1e-12;
 
-/// The matrix, then its factor.
+/// A matrix, then its factor in the same place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Envelope {
-    /// First column of each row, and where its numbers begin.
+    /// First column of each row, and where its elements begin.
     first: Vec<usize>,
     at: Vec<usize>,
-    /// Rows up to the diagonal, then L; the element on the diagonal counts for nothing.
+    /// Rows up to the diagonal, then L; the diagonal element is unused.
     lower: Vec<f64>,
-    /// Columns down to the diagonal, then U with the inverse of the diagonal's elements.
+    /// Columns down to the diagonal, then U with its diagonal inverted.
     upper: Vec<f64>,
 }
 
+/// A row from some column on and the column from the row of that index on, both up to the diagonal.
+pub(super) struct Lines<'a> {
+    pub row: &'a mut [f64],
+    pub column: &'a mut [f64],
+}
+
 impl Envelope {
-    /// Room for so many rows of about this length.
-    pub fn with_room(rows: usize, length: usize) -> Self {
+    /// Capacity for so many rows of about this length.
+    pub fn with_capacity(rows: usize, length: usize) -> Self {
         let numbers = || Vec::with_capacity(rows * length);
         Self { first: Vec::with_capacity(rows), at: Vec::with_capacity(rows + 1), lower: numbers(), upper: numbers() }
     }
 
-    /// Begins a matrix of nothing whose rows and columns begin here.
+    /// Begins a zero matrix whose rows and columns start at these indices.
     pub fn begin(&mut self, first: impl Iterator<Item = usize>) {
         self.first.clear();
         self.at.clear();
@@ -49,14 +54,14 @@ impl Envelope {
         }
     }
 
-    /// A row from a column on, and a column from a row on, up to the diagonal.
+    /// The row and column `index` from the element `from` on.
     #[inline(always)]
-    pub fn arms(&mut self, index: usize, from: usize) -> (&mut [f64], &mut [f64]) {
+    pub fn from(&mut self, index: usize, from: usize) -> Lines<'_> {
         let all = self.at[index] + from - self.first[index]..self.at[index + 1];
-        (&mut self.lower[all.clone()], &mut self.upper[all])
+        Lines { row: &mut self.lower[all.clone()], column: &mut self.upper[all] }
     }
 
-    /// Factors in place.
+    /// Factors the matrix in place.
     pub fn factor(&mut self) {
         dispatch!(Level::new(), simd => simd.vectorize(
             #[inline(always)]
@@ -79,7 +84,7 @@ impl Envelope {
             }
             let diagonal = column[last];
             let pivot = diagonal - dot(&row[..last], &column[..last]);
-            let least = LEAST_PIVOT * diagonal.abs();
+            let least = MIN_PIVOT * diagonal.abs();
             column[last] = if pivot.abs() < least { least } else { pivot }.recip();
         }
     }
@@ -107,13 +112,13 @@ impl Envelope {
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     let (whole_a, whole_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest: f64 = whole_a.remainder().iter().zip(whole_b.remainder()).map(|(a, b)| a * b).sum();
+    let remainder: f64 = whole_a.remainder().iter().zip(whole_b.remainder()).map(|(a, b)| a * b).sum();
     for (a, b) in whole_a.zip(whole_b) {
         for lane in 0..LANES {
             lanes[lane] += a[lane] * b[lane];
         }
     }
-    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + rest
+    (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]) + remainder
 }
 
 #[cfg(test)]
@@ -122,7 +127,7 @@ mod tests {
     use soffio_math::noise::Random;
 
     #[test]
-    fn solves_what_the_whole_matrix_multiplies() {
+    fn solving_inverts_the_product_with_the_full_matrix() {
         /// Rounding of some hundred numbers.
         const ROUNDED: f64 = 1e-12;
         let first = [0, 0, 1, 0, 2, 4, 3, 6];
@@ -139,8 +144,8 @@ mod tests {
                 if row == column {
                     whole[row][row] = 4.0;
                 }
-                let (lower, upper) = envelope.arms(row, column);
-                (lower[0], upper[0]) = (whole[row][column], whole[column][row]);
+                let lines = envelope.from(row, column);
+                (lines.row[0], lines.column[0]) = (whole[row][column], whole[column][row]);
             }
         }
         let x: Vec<f64> = (0..n).map(|_| random.signed()).collect();

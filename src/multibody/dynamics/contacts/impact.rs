@@ -1,39 +1,39 @@
-//! What surfaces do to each other, and what a contact did.
+//! Surface pairs and impact events.
 
 use super::contact::RollingResistance;
 use crate::collision::Pair;
 use soffio_math::DVec3;
 
-/// A pair of colliders and what their surfaces do to each other.
+/// A pair of colliders that can touch, with the coefficients of their contact.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfacePair {
-    /// The colliders.
+    /// Indices of the two colliders.
     pub pair: Pair,
-    /// Energetic coefficient of restitution.
+    /// Energetic coefficient of restitution, 0 … 1.
     pub restitution: f64,
-    /// Coulomb coefficient while sliding.
+    /// Coulomb coefficient of friction.
     pub friction: f64,
-    /// Against rolling and spinning on each other.
+    /// Resistance to rolling and spinning.
     pub resistance: RollingResistance,
 }
 
-/// What a contact did.
+/// The kind of an impact event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ImpactKind {
-    /// A hit that bounces.
+    /// An impact that bounces.
     Impact,
-    /// The beginning of rest.
+    /// The beginning of a resting contact.
     RestingContact,
-    /// A limit reached its bound.
+    /// A joint reached its limit.
     Stop,
 }
 
-/// One hit.
+/// An impact event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// Seconds after the beginning of the step.
     pub time: f64,
-    /// What it did.
+    /// Whether it bounces, begins resting contact, or is at a limit.
     pub kind: ImpactKind,
     /// The two bodies; `None` is the world.
     pub bodies: [Option<usize>; 2],
@@ -41,9 +41,9 @@ pub struct Impact {
     pub colliders: Option<[usize; 2]>,
     /// World, m.
     pub point: DVec3,
-    /// Unit, from the second collider to the first.
+    /// Unit, from the second collider to the first; zero at a limit.
     pub normal: DVec3,
-    /// N s (N m s at a limit of an angle).
+    /// Magnitude of the impulse, N s (N m s at a limit of an angle).
     pub impulse: f64,
     /// Approach speed along the normal, m/s (rad/s at a limit of an angle).
     pub speed: f64,

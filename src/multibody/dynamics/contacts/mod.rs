@@ -1,13 +1,13 @@
-//! Contacts of a figure in motion: hits at their own time, and rest without jitter, creep or sinking.
+//! Contact dynamics: event-driven impacts, resting contacts without jitter, creep or sinking, and Moreau's time stepping.
 //!
-//! A pair of colliders, or a bound of a limit, is *apart* until it is reached inside a substep; the substep is cut
-//! there and the hit resolved with the joints' own factor, so that it travels through the whole figure (`hit`). What
-//! meets slower than `REST_SPEED`, or slowly and again within `CHATTER_TIME`, *rests*: from then on it is held by
-//! forces over the whole substep (`rest`) until it has opened by more than `RELEASE_GAP`.
+//! A pair of colliders, or a bound of a limit, is *apart* until the bodies reach it inside a substep. The substep is cut there
+//! and the impact resolved with the joints' own factor, so that it acts on the whole articulation (`impact_solver`). A pair that
+//! approaches slower than `REST_SPEED`, or slowly and again within `CHATTER_TIME`, is in *resting contact*: from then on forces
+//! act on it over whole substeps (`resting_contact`) until it has opened by more than `RELEASE_GAP`.
 //!
-//! Impacts of several points and resting contact are one problem (`problem`): reduced coordinates of what moves (`coordinates`), islands
-//! of it (`islands`), the laws of each touch (`law`), and the solver (`newton`, `leap`, `envelope`). Where a step has no time to follow
-//! impacts one by one, its rest is a single substep that solves all of them with the resting contacts (`together`).
+//! Impacts at several points and resting contacts are one problem (`contact_problem`): reduced coordinates (`reduced_coordinates`),
+//! islands (`islands`), contact laws (`contact_law`) and the solver (`contact_solver`, `active_set_step`, `envelope`). Where a step
+//! has no time to resolve impacts one by one, it solves them together with the resting contacts (`time_stepping`).
 
 mod active_set_step;
 mod contact;
@@ -42,6 +42,8 @@ pub use impact::{Impact, ImpactKind, SurfacePair};
 pub use impact_solver::{PointImpact, PointImpactResult, resolve_point_impact};
 pub(super) use jacobian_row::JacobianRow;
 pub use jacobian_row::MAX_ROW_BODIES;
-pub(super) use resting_contact::{LAST_PASS, PassOutcome};
+pub(super) use open_joints::Stabilization;
+pub(super) use resting_contact::{Pass, PassOutcome};
+pub(super) use state::ContactSetup;
 pub use state::Contacts;
 pub use swept_contact::{SweptContact, rolling_rows};

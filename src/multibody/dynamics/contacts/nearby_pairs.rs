@@ -1,26 +1,32 @@
-//! What is near what: pairs whose boxes overlap on a way of the bodies.
+//! Broad phase of contact: pairs of colliders whose swept boxes overlap.
 
 use super::surfaces::Surfaces;
 use crate::collision::{BroadPhase, Collider, Pair, Sweep, TimeOfImpact, time_of_impact};
 use soffio_geometry::bodies::RigidBody;
 
-/// The broad phase of a figure.
+/// The pairs of an articulation's colliders that are near each other.
 #[derive(Clone, Debug)]
 pub(super) struct NearbyPairs {
     broad: BroadPhase,
-    /// Pairs whose boxes overlap, ascending: over the present substep, or where bodies are at a hit.
+    /// Pairs whose boxes overlap, ascending: over the present substep, or at the bodies' state of an impact.
     pub list: Vec<usize>,
-    /// Ways of the bodies.
+    /// Motion of each body over the substep.
     pub sweeps: Vec<Sweep>,
-    /// How many pairs were measured in the present step.
+    /// Number of pairs measured in the present step.
     pub measured: usize,
-    /// Looks at all of so many pairs, near or not.
+    /// Takes all of so many pairs as near.
     #[cfg(test)]
     pub all: Option<usize>,
 }
 
+/// The motions of a pair's two colliders, and their first contact.
+pub(super) struct SweptPair {
+    pub sweeps: [Sweep; 2],
+    pub impact: Option<TimeOfImpact>,
+}
+
 impl NearbyPairs {
-    /// Of these pairs of colliders, for so many bodies.
+    /// The broad phase of these pairs, for so many bodies.
     pub fn new(colliders: &[Collider], pairs: &[Pair], bodies: usize) -> Self {
         Self {
             broad: BroadPhase::new(colliders, pairs),
@@ -32,15 +38,15 @@ impl NearbyPairs {
         }
     }
 
-    /// Leaves out what is among bodies that sleep, where they are.
-    pub fn let_sleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
+    /// Sets which bodies sleep; pairs among them are left out.
+    pub fn set_asleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
         for (body, sweep) in self.sweeps.iter_mut().enumerate().filter(|(body, _)| asleep[*body]) {
             *sweep = Sweep::new(&bodies[body], &bodies[body]);
         }
         self.broad.let_sleep(asleep);
     }
 
-    /// Finds the pairs whose boxes overlap on the way between two states of the bodies.
+    /// Finds the pairs whose boxes overlap between two states of the bodies.
     pub fn find(&mut self, before: &[RigidBody], after: &[RigidBody], asleep: &[bool]) {
         for (((sweep, b), a), asleep) in self.sweeps.iter_mut().zip(before).zip(after).zip(asleep) {
             if !asleep {
@@ -55,20 +61,20 @@ impl NearbyPairs {
         }
     }
 
-    /// The ways of a pair's colliders, and when they meet on them.
-    pub fn sweep_pair(&mut self, surfaces: &mut Surfaces, pair: usize) -> ((Sweep, Sweep), Option<TimeOfImpact>) {
+    /// The motions of a pair's colliders, and when they come into contact.
+    pub fn sweep_pair(&mut self, surfaces: &mut Surfaces, pair: usize) -> SweptPair {
         let Pair { a, b } = surfaces.pairs[pair].pair;
         self.measured += 1;
         let (sweep_a, sweep_b) = (self.sweep(surfaces, a), self.sweep(surfaces, b));
-        let toi = time_of_impact(
+        let impact = time_of_impact(
             &mut surfaces.corners,
-            (&surfaces.colliders[a], &sweep_a, surfaces.reach[a]),
-            (&surfaces.colliders[b], &sweep_b, surfaces.reach[b]),
+            (&surfaces.colliders[a], &sweep_a, surfaces.bounding_radii[a]),
+            (&surfaces.colliders[b], &sweep_b, surfaces.bounding_radii[b]),
         );
-        ((sweep_a, sweep_b), toi)
+        SweptPair { sweeps: [sweep_a, sweep_b], impact }
     }
 
-    /// The way of a collider.
+    /// The motion of a collider.
     pub fn sweep(&self, surfaces: &Surfaces, collider: usize) -> Sweep {
         surfaces.colliders[collider].body.map_or(Sweep::STILL, |body| self.sweeps[body])
     }

@@ -1,153 +1,154 @@
-//! Reduced coordinates of a contact problem: what its bodies can do, in numbers whose mass is one.
+//! Reduced coordinates of the contact problem: a factor of its effective inverse mass (Delassus) matrix.
 //!
-//! A *node* is what moves as one thing: a body free of joints, or a *mechanism*, all bodies that joints put together. The
-//! world and bodies with a given motion are none, they do not give way. Nodes feel each other through contact alone, so
-//! the effective inverse mass of all rows J falls apart into one sum of nodes,
+//! A *node* moves as one: a free body, or a *mechanism*, which is all bodies that joints connect. The world and kinematic bodies
+//! are no nodes, because nothing moves them. Nodes influence each other by contact alone, so the effective inverse mass of all
+//! rows J is a sum over nodes,
 //!
 //! ```text
 //! J H⁻¹ Jᵀ = Σ_i B_i B_iᵀ        u = u₀ + Σ_i B_i z_i        z_i = B_iᵀ (P − P₀)        kinetic energy ½ Σ |z_i|²
 //! ```
 //!
-//! with z_i the change of velocity of node i in coordinates that make its mass matrix the identity. For a free body of mass
-//! m and inertia I, with F Fᵀ = I⁻¹ (Cholesky), a row (l, r × l) that pushes along l at the arm r has
+//! with z_i the velocity change of node i in coordinates that make its mass matrix the identity. For a free body of mass m and
+//! inertia I, with F Fᵀ = I⁻¹ (Cholesky), a row (l, r × l) along l at the arm r has
 //!
 //! ```text
-//! B = (l/√m, Fᵀ (r × l))        6 numbers
+//! B = (l/√m, Fᵀ (r × l))        6 coordinates
 //! ```
 //!
-//! and for a mechanism B is the factor of W = J H⁻¹ Jᵀ = B Bᵀ over the rows that touch it, found by Cholesky's method with
-//! pivots: as many numbers as the rows can move it in ways that differ. A clock of many teeth that touch has a handful.
-//! Columns of W take one solve of the joints each; mechanisms do not feel each other's, so one solve serves the k-th rows of
-//! all of them.
+//! For a mechanism B is a pivoted Cholesky factor of W = J H⁻¹ Jᵀ = B Bᵀ over the rows that act on it. It has as many coordinates
+//! as independent ways in which contact can move it, a handful for a clock of many teeth. A column of W takes one solve of the
+//! joints. Mechanisms do not influence each other, so one solve finds the k-th column of all of them.
 
-use super::contact::Contact;
+use super::contact::{Contact, IndexRange};
 use super::jacobian_row::{JacobianRow, MAX_ROW_BODIES};
-use super::open_joints::OpenJoints;
+use super::open_joints::{OpenJoints, Stabilization};
 use crate::articulation::{Constraint, Geared, Groups, System};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, angular, linear};
 use soffio_math::{DMat3, DVec3};
 
-/// What is left of a row's own answer below this share of it is rounding: other rows move the mechanism that way already.
-const REPEATS: f64 = 1e-11;
-/// Room for the rows of so many touches of mechanisms; more make lists grow.
-const ROOM: usize = 64;
+/// A pivot below this fraction of its diagonal element is rounding: the row depends on others.
+const DEPENDENT: f64 = 1e-11;
+/// Capacity for the rows of so many contacts of mechanisms; more make lists grow.
+const CAPACITY: usize = 64;
 /// No node.
 const NONE: usize = usize::MAX;
 
-/// Which bodies move as one.
+/// Which bodies joints connect.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct Mechanisms {
-    /// First body of each body's mechanism; [`NONE`] where its motion is given.
+    /// First body of each body's mechanism; [`NONE`] for a kinematic body.
     first: Vec<usize>,
-    /// Is a body free of joints?
+    /// Whether no joint acts on a body.
     free: Vec<bool>,
 }
 
 impl Mechanisms {
-    /// Those that these constraints make of the bodies that are not driven.
+    /// The mechanisms that these constraints make of the bodies that are not kinematic.
     pub fn new(constraints: &[Constraint], is_kinematic: &[bool]) -> Self {
         let n = is_kinematic.len();
         let mut groups = Groups::new(n);
         let mut free = vec![true; n];
         for constraint in constraints {
-            let held = || (0..n).filter(|&body| !is_kinematic[body] && constraint.kind.touches(body));
-            groups.join_all(held());
-            held().for_each(|body| free[body] = false);
+            let connected = || (0..n).filter(|&body| !is_kinematic[body] && constraint.kind.touches(body));
+            groups.join_all(connected());
+            connected().for_each(|body| free[body] = false);
         }
         let first = (0..n).map(|body| if is_kinematic[body] { NONE } else { groups.first(body) }).collect();
         Self { first, free }
     }
 
-    /// How many bodies there are.
+    /// Number of bodies.
     pub fn count(&self) -> usize {
         self.first.len()
     }
 }
 
-/// What moves as one thing, in a problem.
+/// A free body or a mechanism of the problem.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    /// First body of a mechanism, or the body that is free.
+    /// First body of a mechanism, or the free body.
     body: usize,
     free: bool,
-    /// How many coordinates it has.
+    /// Number of its coordinates.
     pub size: usize,
-    /// Its lines among all, and where its W begins.
-    lines: (usize, usize),
+    /// Its rows among those of all mechanisms.
+    rows: IndexRange,
+    /// Where its W begins.
     w: usize,
 }
 
-/// How the rows of a touch move one node: a matrix of `rows` by the node's size, row by row.
+/// B of one contact and one node: a matrix of the contact's rows by the node's size, row by row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeBlock {
     pub node: usize,
     pub contact: usize,
-    /// Where its numbers begin.
+    /// Where its elements begin.
     pub at: usize,
 }
 
-/// A row of the problem, as far as it touches one mechanism.
+/// A row of the problem, as far as it acts on one mechanism.
 #[derive(Clone, Copy, Debug)]
 struct MechanismRow {
     row: usize,
-    part: usize,
+    block: usize,
     geared: Option<Geared<MAX_ROW_BODIES>>,
 }
 
-/// The nodes of a problem and how its rows move them.
+/// The nodes of the problem and the factor B of its rows.
 #[derive(Clone, Debug)]
-pub(super) struct Coordinates {
+pub(super) struct ReducedCoordinates {
     mechanisms: Mechanisms,
     /// Node of each mechanism by its first body, in the present problem.
     node_of: Vec<usize>,
     pub nodes: Vec<Node>,
-    pub parts: Vec<NodeBlock>,
-    pub jacobian: Vec<f64>,
-    lines: Vec<MechanismRow>,
+    pub blocks: Vec<NodeBlock>,
+    /// Elements of all blocks.
+    pub elements: Vec<f64>,
+    mechanism_rows: Vec<MechanismRow>,
     /// W of all mechanisms, one after the other, row by row.
     w: Vec<f64>,
-    /// Scratch of the factor: what is left of each line's own answer, that answer, and B.
-    left: Vec<[f64; 2]>,
+    /// Scratch of the factorization: each row's remaining and original diagonal element, and B.
+    diagonals: Vec<[f64; 2]>,
     b: Vec<f64>,
     open: OpenJoints,
 }
 
-impl Coordinates {
-    /// For problems among these mechanisms, of about so many touches.
-    pub fn new(mechanisms: Mechanisms, contacts: usize, (joint_rows, time): (usize, f64)) -> Self {
+impl ReducedCoordinates {
+    /// Capacity for problems among these mechanisms, of about so many contacts.
+    pub fn new(mechanisms: Mechanisms, contacts: usize, stabilization: Stabilization) -> Self {
         let bodies = mechanisms.first.len();
-        let rows = if mechanisms.free.iter().all(|free| *free) { 0 } else { 3 * contacts.min(ROOM) };
+        let rows = if mechanisms.free.iter().all(|free| *free) { 0 } else { 3 * contacts.min(CAPACITY) };
         Self {
             node_of: vec![NONE; bodies],
             nodes: Vec::with_capacity(bodies),
-            parts: Vec::with_capacity(3 * contacts),
-            jacobian: Vec::with_capacity(36 * contacts + rows * rows),
-            lines: Vec::with_capacity(2 * rows),
+            blocks: Vec::with_capacity(3 * contacts),
+            elements: Vec::with_capacity(36 * contacts + rows * rows),
+            mechanism_rows: Vec::with_capacity(2 * rows),
             w: Vec::with_capacity(rows * rows),
-            left: Vec::with_capacity(rows),
+            diagonals: Vec::with_capacity(rows),
             b: Vec::with_capacity(rows * rows),
-            open: OpenJoints::new(joint_rows, time, 2 * rows),
+            open: OpenJoints::new(stabilization, 2 * rows),
             mechanisms,
         }
     }
 
-    /// Are there joints that give way, at the last assembly?
+    /// Whether joints were open at the last assembly.
     pub fn has_open_joints(&self) -> bool {
         !self.open.is_empty()
     }
 
-    /// The parts of a touch.
-    pub fn parts_of(&self, contact: &Contact) -> &[NodeBlock] {
-        &self.parts[contact.parts.0..contact.parts.1]
+    /// The blocks of a contact.
+    pub fn blocks_of(&self, contact: &Contact) -> &[NodeBlock] {
+        &self.blocks[contact.blocks.range()]
     }
 
-    /// The matrix of a part.
-    pub fn block(&self, part: &NodeBlock, rows: usize) -> &[f64] {
-        &self.jacobian[part.at..][..rows * self.nodes[part.node].size]
+    /// The elements of a block of so many rows, row by row.
+    pub fn matrix(&self, block: &NodeBlock, rows: usize) -> &[f64] {
+        &self.elements[block.at..][..rows * self.nodes[block.node].size]
     }
 
-    /// Finds nodes and matrices at the bodies' present state; the joints must be factored there.
+    /// Finds nodes and blocks at the bodies' present state, where the joints must be factored.
     pub fn assemble(
         &mut self,
         contacts: &mut [Contact],
@@ -155,11 +156,11 @@ impl Coordinates {
         system: &mut System,
         bodies: &[RigidBody],
     ) {
-        self.find_parts(contacts, rows, bodies);
+        self.find_blocks(contacts, rows, bodies);
         self.open.find(system);
-        if !self.lines.is_empty() {
-            self.find_lines(system, rows);
-            self.solve_lines(system, rows);
+        if !self.mechanism_rows.is_empty() {
+            self.sort_mechanism_rows(system, rows);
+            self.solve_mechanism_rows(system, rows);
             (0..self.nodes.len()).for_each(|node| self.factor_mechanism(node));
             self.write_blocks(contacts);
         }
@@ -168,45 +169,46 @@ impl Coordinates {
         }
     }
 
-    /// Finds nodes and parts, and the matrices of free bodies.
-    fn find_parts(&mut self, contacts: &mut [Contact], rows: &[JacobianRow], bodies: &[RigidBody]) {
+    /// Finds nodes and blocks, and the elements of free bodies.
+    fn find_blocks(&mut self, contacts: &mut [Contact], rows: &[JacobianRow], bodies: &[RigidBody]) {
         self.nodes.clear();
-        self.parts.clear();
-        self.jacobian.clear();
-        self.lines.clear();
+        self.blocks.clear();
+        self.elements.clear();
+        self.mechanism_rows.clear();
         for (index, contact) in contacts.iter_mut().enumerate() {
-            let first = self.parts.len();
-            let own = &rows[contact.first..contact.first + contact.rows];
+            let first = self.blocks.len();
+            let own = &rows[contact.rows.range()];
             for (end, (body, _)) in own[0].ends.iter().enumerate().filter_map(|(k, end)| Some((k, end.as_ref()?))) {
                 let Some(node) = self.node(*body) else { continue };
-                if self.parts[first..].iter().any(|part| part.node == node) {
+                if self.blocks[first..].iter().any(|block| block.node == node) {
                     continue;
                 }
-                let at = self.jacobian.len();
-                self.parts.push(NodeBlock { node, contact: index, at });
+                let at = self.elements.len();
+                self.blocks.push(NodeBlock { node, contact: index, at });
                 if self.nodes[node].free {
                     let body = &bodies[*body];
-                    let (lightness, f) = (body.properties.mass.sqrt().recip(), spin_factor(body));
+                    let (inverse_root_mass, f) = (body.properties.mass.sqrt().recip(), spin_factor(body));
                     for row in own {
                         let (_, block) = row.ends[end].unwrap_or_default();
-                        let (push, twist) = (lightness * linear(&block), f.transpose() * angular(&block));
-                        self.jacobian.extend(push.to_array().into_iter().chain(twist.to_array()));
+                        let (translation, rotation) =
+                            (inverse_root_mass * linear(&block), f.transpose() * angular(&block));
+                        self.elements.extend(translation.to_array().into_iter().chain(rotation.to_array()));
                     }
                 } else {
-                    let part = self.parts.len() - 1;
-                    self.nodes[node].lines.1 += own.len();
-                    self.lines.extend((contact.first..).take(own.len()).map(|row| MechanismRow {
+                    let block = self.blocks.len() - 1;
+                    self.nodes[node].rows.end += own.len();
+                    self.mechanism_rows.extend((contact.rows.start..).take(own.len()).map(|row| MechanismRow {
                         row,
-                        part,
+                        block,
                         geared: None,
                     }));
                 }
             }
-            contact.parts = (first, self.parts.len());
+            contact.blocks = IndexRange { start: first, end: self.blocks.len() };
         }
     }
 
-    /// The node of a body; none where its motion is given.
+    /// The node of a body; `None` of a kinematic one.
     fn node(&mut self, body: usize) -> Option<usize> {
         let first = self.mechanisms.first[body];
         if first == NONE {
@@ -215,47 +217,47 @@ impl Coordinates {
         if self.node_of[first] == NONE {
             self.node_of[first] = self.nodes.len();
             let free = self.mechanisms.free[body];
-            self.nodes.push(Node { body: first, free, size: if free { 6 } else { 0 }, lines: (0, 0), w: 0 });
+            let size = if free { 6 } else { 0 };
+            self.nodes.push(Node { body: first, free, size, rows: IndexRange::default(), w: 0 });
         }
         Some(self.node_of[first])
     }
 
-    /// Brings the lines into the order of their nodes, and says which push trains alone.
-    fn find_lines(&mut self, system: &System, rows: &[JacobianRow]) {
-        let Self { lines, parts, nodes, mechanisms, open, .. } = self;
-        lines.sort_unstable_by_key(|line| (parts[line.part].node, line.row));
-        let (mut first, mut w) = (0, 0);
+    /// Sorts the rows by their nodes, and finds those that act on gear trains alone.
+    fn sort_mechanism_rows(&mut self, system: &System, rows: &[JacobianRow]) {
+        let Self { mechanism_rows, blocks, nodes, mechanisms, open, .. } = self;
+        mechanism_rows.sort_unstable_by_key(|own| (blocks[own.block].node, own.row));
+        let (mut start, mut w) = (0, 0);
         for node in nodes.iter_mut().filter(|node| !node.free) {
-            let count = node.lines.1;
-            (node.lines, node.w) = ((first, first + count), w);
-            (first, w) = (first + count, w + count * count);
+            let count = node.rows.end;
+            (node.rows, node.w) = (IndexRange { start, end: start + count }, w);
+            (start, w) = (start + count, w + count * count);
         }
         for numbers in [&mut self.w, &mut self.b] {
             numbers.clear();
             numbers.resize(w, 0.0);
         }
-        // Of joints that give way the multipliers are asked too.
+        // Open joints need the multipliers too, which gear trains alone do not give.
         if open.is_empty() && system.has_trains() {
-            for line in lines.iter_mut() {
-                let body = nodes[parts[line.part].node].body;
-                line.geared = system.geared(&within(mechanisms, &rows[line.row], body));
+            for own in mechanism_rows.iter_mut() {
+                let body = nodes[blocks[own.block].node].body;
+                own.geared = system.geared(&within(mechanisms, &rows[own.row], body));
             }
         }
-        open.make_room(lines.len());
+        open.begin_columns(mechanism_rows.len());
     }
 
-    /// Finds W of every mechanism.
-    fn solve_lines(&mut self, system: &mut System, rows: &[JacobianRow]) {
-        let most = self.nodes.iter().map(|node| node.lines.1 - node.lines.0).max().unwrap_or(0);
-        for k in 0..most {
-            let has = |node: &Node| node.lines.0 + k < node.lines.1;
-            let asks = |this: &Self, node: &Node| has(node) && this.lines[node.lines.0 + k].geared.is_none();
+    /// Finds W of every mechanism, column by column.
+    fn solve_mechanism_rows(&mut self, system: &mut System, rows: &[JacobianRow]) {
+        let longest = self.nodes.iter().map(|node| node.rows.len()).max().unwrap_or(0);
+        for k in 0..longest {
             if self.open.is_empty() {
                 system.b.fill([0.0; 6]);
                 let mut any = false;
                 for node in 0..self.nodes.len() {
-                    if asks(self, &self.nodes[node]) {
-                        self.push(self.nodes[node].lines.0 + k, rows, system);
+                    let Node { rows: own, .. } = self.nodes[node];
+                    if own.start + k < own.end && self.mechanism_rows[own.start + k].geared.is_none() {
+                        self.push(own.start + k, rows, system);
                         any = true;
                     }
                 }
@@ -264,31 +266,31 @@ impl Coordinates {
                 }
             }
             for node in 0..self.nodes.len() {
-                let Node { lines: (first, end), .. } = self.nodes[node];
-                if first + k >= end {
+                let IndexRange { start, end } = self.nodes[node].rows;
+                if start + k >= end {
                     continue;
                 }
-                let line = first + k;
-                match &self.lines[line].geared {
+                let pushed = start + k;
+                match &self.mechanism_rows[pushed].geared {
                     Some(geared) => {
                         system.answer_geared(geared);
-                        for other in line..end {
-                            if let Some(row) = &self.lines[other].geared {
-                                self.enter(node, (other - first, k), system.geared_rate(row));
+                        for other in pushed..end {
+                            if let Some(row) = &self.mechanism_rows[other].geared {
+                                self.set_symmetric(node, other - start, k, system.geared_rate(row));
                             }
                         }
                     }
                     None => {
                         if !self.open.is_empty() {
                             system.b.fill([0.0; 6]);
-                            self.push(line, rows, system);
+                            self.push(pushed, rows, system);
                             system.solve_impulse();
-                            self.open.take(line, system);
+                            self.open.take_column(pushed, system);
                         }
-                        for other in first..end {
-                            if other >= line || self.lines[other].geared.is_some() {
+                        for other in start..end {
+                            if other >= pushed || self.mechanism_rows[other].geared.is_some() {
                                 let value = self.along(other, rows, &system.a);
-                                self.enter(node, (other - first, k), value);
+                                self.set_symmetric(node, other - start, k, value);
                             }
                         }
                     }
@@ -297,91 +299,94 @@ impl Coordinates {
         }
         if !self.open.is_empty() {
             for node in 0..self.nodes.len() {
-                let Node { lines: (first, end), w, .. } = self.nodes[node];
-                let count = end - first;
+                let Node { rows: own, w, .. } = self.nodes[node];
+                let count = own.len();
                 for (row, column) in (0..count).flat_map(|row| (0..count).map(move |column| (row, column))) {
-                    self.w[w + row * count + column] += self.open.adds(first + row, first + column);
+                    self.w[w + row * count + column] += self.open.addition(own.start + row, own.start + column);
                 }
             }
         }
     }
 
-    /// Enters an element of W and its mirror image.
-    fn enter(&mut self, node: usize, (row, column): (usize, usize), value: f64) {
-        let Node { lines: (first, end), w, .. } = self.nodes[node];
-        let count = end - first;
+    /// Sets an element of W and its mirror image.
+    fn set_symmetric(&mut self, node: usize, row: usize, column: usize, value: f64) {
+        let Node { rows, w, .. } = self.nodes[node];
+        let count = rows.len();
         self.w[w + row * count + column] = value;
         self.w[w + column * count + row] = value;
     }
 
-    /// Lays a unit impulse of a line on its bodies.
-    fn push(&self, line: usize, rows: &[JacobianRow], system: &mut System) {
-        let MechanismRow { row, part, .. } = self.lines[line];
-        let own = within(&self.mechanisms, &rows[row], self.nodes[self.parts[part].node].body);
-        for (body, block) in own.iter().flatten() {
+    /// Adds a unit impulse along a mechanism's row to the right-hand side.
+    fn push(&self, mechanism_row: usize, rows: &[JacobianRow], system: &mut System) {
+        for (body, block) in self.ends(mechanism_row, rows).iter().flatten() {
             system.push_impulse(*body, block, 1.0);
         }
     }
 
-    /// A line times the bodies' coordinates.
-    fn along(&self, line: usize, rows: &[JacobianRow], a: &[Vec6]) -> f64 {
-        let MechanismRow { row, part, .. } = self.lines[line];
-        JacobianRow { ends: within(&self.mechanisms, &rows[row], self.nodes[self.parts[part].node].body) }.along(a)
+    /// A mechanism's row times one vector per body.
+    fn along(&self, mechanism_row: usize, rows: &[JacobianRow], a: &[Vec6]) -> f64 {
+        JacobianRow { ends: self.ends(mechanism_row, rows) }.along(a)
     }
 
-    /// Factors W of a mechanism, W = B Bᵀ, pivot after pivot the line of which most is left; B's lines stand in `b`.
+    /// The ends of a row within its mechanism.
+    fn ends(&self, mechanism_row: usize, rows: &[JacobianRow]) -> [Option<(usize, Vec6)>; MAX_ROW_BODIES] {
+        let MechanismRow { row, block, .. } = self.mechanism_rows[mechanism_row];
+        within(&self.mechanisms, &rows[row], self.nodes[self.blocks[block].node].body)
+    }
+
+    /// Factors W = B Bᵀ of a mechanism by Cholesky's method with diagonal pivoting; B's rows are in `b`.
     fn factor_mechanism(&mut self, node: usize) {
-        let Node { free, lines: (first, end), w, .. } = self.nodes[node];
+        let Node { free, rows, w, .. } = self.nodes[node];
         if free {
             return;
         }
-        let count = end - first;
+        let count = rows.len();
         let (w, b) = (&self.w[w..][..count * count], &mut self.b[w..][..count * count]);
-        self.left.clear();
-        self.left.extend((0..count).map(|k| [w[k * count + k]; 2]));
+        self.diagonals.clear();
+        self.diagonals.extend((0..count).map(|k| [w[k * count + k]; 2]));
         let mut size = 0;
         loop {
-            let share = |[left, own]: &[f64; 2]| if *own > 0.0 { left / own } else { 0.0 };
-            let (mut pivot, mut best) = (0, REPEATS);
-            for (k, left) in self.left.iter().enumerate() {
-                if share(left) > best {
-                    (pivot, best) = (k, share(left));
+            let fraction = |[remaining, own]: &[f64; 2]| if *own > 0.0 { remaining / own } else { 0.0 };
+            let (mut pivot, mut best) = (0, DEPENDENT);
+            for (k, diagonal) in self.diagonals.iter().enumerate() {
+                if fraction(diagonal) > best {
+                    (pivot, best) = (k, fraction(diagonal));
                 }
             }
-            if best == REPEATS || size == count {
+            if best == DEPENDENT || size == count {
                 break;
             }
-            let root = self.left[pivot][0].sqrt();
+            let root = self.diagonals[pivot][0].sqrt();
             for k in 0..count {
                 let done = (0..size).map(|j| b[k * count + j] * b[pivot * count + j]).sum::<f64>();
                 let value = (w[k * count + pivot] - done) / root;
                 b[k * count + size] = value;
-                self.left[k][0] -= value * value;
+                self.diagonals[k][0] -= value * value;
             }
-            self.left[pivot][0] = 0.0;
+            self.diagonals[pivot][0] = 0.0;
             size += 1;
         }
         self.nodes[node].size = size;
     }
 
-    /// Writes the mechanisms' factors into the matrices of their parts.
+    /// Copies the mechanisms' factors into their blocks.
     fn write_blocks(&mut self, contacts: &[Contact]) {
-        for line in 0..self.lines.len() {
-            let MechanismRow { row, part, .. } = self.lines[line];
-            let NodeBlock { node, contact, .. } = self.parts[part];
-            let Node { size, lines: (first, end), w, .. } = self.nodes[node];
-            let count = end - first;
-            if row == contacts[contact].first {
-                self.parts[part].at = self.jacobian.len();
+        for own in 0..self.mechanism_rows.len() {
+            let MechanismRow { row, block, .. } = self.mechanism_rows[own];
+            let NodeBlock { node, contact, .. } = self.blocks[block];
+            let Node { size, rows, w, .. } = self.nodes[node];
+            let first_row = contacts[contact].rows.start;
+            if row == first_row {
+                self.blocks[block].at = self.elements.len();
             }
-            self.jacobian.extend_from_slice(&self.b[w + (line - first) * count..][..size]);
-            debug_assert_eq!(self.jacobian.len(), self.parts[part].at + (row - contacts[contact].first + 1) * size);
+            self.elements.extend_from_slice(&self.b[w + (own - rows.start) * rows.len()..][..size]);
+            debug_assert_eq!(self.elements.len(), self.blocks[block].at + (row - first_row + 1) * size);
         }
     }
 
-    /// Solves for the answer to the impulses in the system's `b`, which are these in the problem's rows.
-    pub fn answer(&self, impulses: &[f64], system: &mut System) {
-        self.open.solve(self.lines.iter().map(|line| impulses[line.row]), system);
+    /// Solves for the response to the impulses in the system's `b`, which are `impulses` in the problem's rows.
+    pub fn solve_impulses(&self, impulses: &[f64], system: &mut System) {
+        self.open.solve(self.mechanism_rows.iter().map(|own| impulses[own.row]), system);
     }
 }
 

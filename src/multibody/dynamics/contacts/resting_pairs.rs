@@ -1,86 +1,88 @@
-//! What rests, and how long ago it was hit.
+//! Which pairs and bounds are in resting contact.
 
-use super::contact::{Contact, Source};
+use super::contact::{Contact, ContactSource};
 use super::sleeping_bodies::SleepingBodies;
 use super::surfaces::Surfaces;
 use crate::dynamics::limits::Limits;
 
-/// What rests among the pairs of a figure, and how many bounds do.
+/// The pairs in resting contact, and how many bounds are. The limits themselves know which bounds.
 #[derive(Clone, Debug)]
 pub(super) struct RestingSet {
-    /// Whether each pair rests, the pairs that do, ascending, and how many bounds do.
-    pub pairs: Vec<bool>,
-    pub at_rest: Vec<usize>,
+    /// Whether each pair is in resting contact.
+    pub is_resting: Vec<bool>,
+    /// The pairs that are, ascending.
+    pub pairs: Vec<usize>,
+    /// Number of bounds that are.
     pub bounds: usize,
-    /// Each pair's last hit, s.
-    pub last_hit: Vec<f64>,
-    /// How deep each resting pair had sunk in at the last substep's end, m; not above 0.
+    /// Time of each pair's last impact, s.
+    pub last_impact: Vec<f64>,
+    /// Largest penetration of each resting pair at the end of the last substep, m; not above 0.
     pub depth: Vec<f64>,
 }
 
 impl RestingSet {
-    /// Nothing rests yet among so many pairs.
+    /// None of so many pairs rests.
     pub fn new(pairs: usize) -> Self {
         Self {
-            pairs: vec![false; pairs],
-            at_rest: Vec::with_capacity(pairs),
+            is_resting: vec![false; pairs],
+            pairs: Vec::with_capacity(pairs),
             bounds: 0,
-            last_hit: vec![f64::NEG_INFINITY; pairs],
+            last_impact: vec![f64::NEG_INFINITY; pairs],
             depth: vec![0.0; pairs],
         }
     }
 
-    /// How many pairs and bounds rest.
+    /// Number of resting pairs and bounds.
     pub fn count(&self) -> usize {
-        self.at_rest.len() + self.bounds
+        self.pairs.len() + self.bounds
     }
 
-    /// Forgets all rest, but for what the limits know of it.
-    pub fn forget(&mut self) {
-        self.pairs.fill(false);
+    /// Ends all resting contact, except in the limits.
+    pub fn clear(&mut self) {
+        self.is_resting.fill(false);
         self.depth.fill(0.0);
-        self.at_rest.clear();
+        self.pairs.clear();
         self.bounds = 0;
     }
 
     /// Sets whether a pair rests.
-    pub fn set(&mut self, pair: usize, rests: bool) {
-        if self.pairs[pair] == rests {
+    pub fn set_pair(&mut self, pair: usize, is_resting: bool) {
+        if self.is_resting[pair] == is_resting {
             return;
         }
-        self.pairs[pair] = rests;
+        self.is_resting[pair] = is_resting;
         self.depth[pair] = 0.0;
-        match self.at_rest.binary_search(&pair) {
+        match self.pairs.binary_search(&pair) {
             Ok(at) => {
-                self.at_rest.remove(at);
+                self.pairs.remove(at);
             }
-            Err(at) => self.at_rest.insert(at, pair),
+            Err(at) => self.pairs.insert(at, pair),
         }
     }
 
     /// Sets whether a bound rests.
-    pub fn set_bound(&mut self, bound: usize, rests: bool, limits: &mut Limits) {
-        self.bounds = self.bounds + usize::from(rests) - usize::from(limits.resting(bound));
-        limits.set_resting(bound, rests);
+    pub fn set_bound(&mut self, bound: usize, is_resting: bool, limits: &mut Limits) {
+        self.bounds = self.bounds + usize::from(is_resting) - usize::from(limits.is_resting(bound));
+        limits.set_resting(bound, is_resting);
     }
 
     /// Sets whether a pair or a bound rests.
-    pub fn set_source(&mut self, source: Source, rests: bool, limits: &mut Limits) {
+    pub fn set(&mut self, source: ContactSource, is_resting: bool, limits: &mut Limits) {
         match source {
-            Source::Pair(pair) => self.set(pair, rests),
-            Source::Bound(bound) => self.set_bound(bound, rests, limits),
+            ContactSource::Pair(pair) => self.set_pair(pair, is_resting),
+            ContactSource::Limit(bound) => self.set_bound(bound, is_resting, limits),
         }
     }
 
-    /// Notes how deep these touches of what rests and is awake have sunk in by the end of a substep.
+    /// Records the penetration of these contacts, of the resting pairs that are awake, at the end of a substep.
     pub fn record_depths(&mut self, contacts: &[Contact], surfaces: &Surfaces, sleeping: &SleepingBodies) {
-        for &pair in &self.at_rest {
-            if !sleeping.sleep(surfaces.bodies_of(pair)) {
+        for &pair in &self.pairs {
+            if !sleeping.both(surfaces.bodies_of(pair)) {
                 self.depth[pair] = 0.0;
             }
         }
         for contact in contacts {
-            if let Source::Pair(pair) = contact.source {
+            if let Some(pair) = contact.point_pair() {
                 self.depth[pair] = self.depth[pair].min(contact.gap);
             }
         }

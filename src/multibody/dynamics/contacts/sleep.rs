@@ -1,46 +1,47 @@
-//! Contacts of what sleeps (`dynamics/sleep.rs`): left out, the forces there kept, until somebody comes.
+//! Contacts of sleeping bodies (`dynamics/sleep.rs`): left out with their forces kept, until something disturbs them.
 
-use super::contact::Source;
+use super::contact::ContactSource;
 use super::earliest_impact::EarliestImpact;
 use super::state::Contacts;
 use crate::collision::{Manifold, TOUCH};
 use soffio_geometry::bodies::RigidBody;
 
 impl Contacts {
-    /// Leaves out what touches among bodies that sleep, and takes up again what no longer does.
-    pub(in crate::dynamics) fn let_sleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
+    /// Sets which bodies sleep: contacts among them are left out, those of bodies that woke act again.
+    pub(in crate::dynamics) fn set_asleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
         self.sleeping.bodies.copy_from_slice(asleep);
-        self.near.let_sleep(asleep, bodies);
-        self.limits.let_sleep(asleep);
-        self.forces.let_sleep(asleep);
-        let bounds = (0..self.limits.count()).filter(|&bound| self.limits.resting(bound) && self.limits.sleeps(bound));
-        let pairs = self.resting.at_rest.iter().filter(|&&pair| self.sleeping.sleep(self.surfaces.bodies_of(pair)));
-        self.sleeping.at_rest = bounds.count() + pairs.count();
+        self.nearby.set_asleep(asleep, bodies);
+        self.limits.set_asleep(asleep);
+        self.forces.set_asleep(asleep);
+        let rests_asleep = |bound: &usize| self.limits.is_resting(*bound) && self.limits.is_asleep(*bound);
+        let bounds = (0..self.limits.count()).filter(rests_asleep);
+        let pairs = self.resting.pairs.iter().filter(|&&pair| self.sleeping.both(self.surfaces.bodies_of(pair)));
+        self.sleeping.resting = bounds.count() + pairs.count();
     }
 
-    /// The two bodies of everything that lies on each other.
-    pub(in crate::dynamics) fn resting_pairs_bodies(&self) -> impl Iterator<Item = [Option<usize>; 2]> {
-        self.resting.at_rest.iter().map(|&pair| self.surfaces.bodies_of(pair))
+    /// The two bodies of every resting pair.
+    pub(in crate::dynamics) fn resting_bodies(&self) -> impl Iterator<Item = [Option<usize>; 2]> {
+        self.resting.pairs.iter().map(|&pair| self.surfaces.bodies_of(pair))
     }
 
-    /// A body that sleeps while something leans on it that does not.
+    /// A sleeping body in resting contact with one that is awake.
     pub(in crate::dynamics) fn disturbed_sleeper(&self) -> Option<usize> {
-        self.resting.at_rest.iter().find_map(|&pair| self.sleeping.one_of(self.surfaces.bodies_of(pair)))
+        self.resting.pairs.iter().find_map(|&pair| self.sleeping.one_of(self.surfaces.bodies_of(pair)))
     }
 
-    /// A body that sleeps and is about to feel a hit: it is hit itself, or touches what moves.
+    /// A sleeping body that takes part in an impact or is in contact with a body that is awake.
     pub(in crate::dynamics) fn sleeper_near_impact(
         &mut self,
-        hit: &EarliestImpact,
+        impact: &EarliestImpact,
         bodies: &[RigidBody],
     ) -> Option<usize> {
-        self.near.find(bodies, bodies, &self.sleeping.bodies);
-        for near in 0..self.near.list.len() {
-            let pair = self.near.list[near];
+        self.nearby.find(bodies, bodies, &self.sleeping.bodies);
+        for index in 0..self.nearby.list.len() {
+            let pair = self.nearby.list[index];
             let Some(sleeper) = self.sleeping.one_of(self.surfaces.bodies_of(pair)) else { continue };
-            let contacts = |manifold: Manifold| manifold.points().iter().any(|at| at.gap <= TOUCH);
-            if hit.source == Source::Pair(pair)
-                || (self.surfaces.may_touch(pair, bodies) && contacts(self.surfaces.manifold(pair, bodies)))
+            let is_closed = |manifold: Manifold| manifold.points().iter().any(|at| at.gap <= TOUCH);
+            if impact.source == ContactSource::Pair(pair)
+                || (self.surfaces.may_touch(pair, bodies) && is_closed(self.surfaces.manifold(pair, bodies)))
             {
                 return Some(sleeper);
             }
@@ -48,7 +49,7 @@ impl Contacts {
         None
     }
 
-    /// Enters work that is no contact's: what a body had left when it was put to rest, J.
+    /// Records energy (J) that a body lost when it was put to sleep.
     pub(in crate::dynamics) fn record_loss(&mut self, energy: f64) {
         self.work.total -= energy;
     }

@@ -1,11 +1,12 @@
-//! All that can touch in a figure, and its state.
+//! All contacts of an articulation and their state between substeps.
 
-use super::contact::{Contact, Source};
+use super::contact::{Contact, ContactKind};
 use super::contact_forces::ContactForces;
 use super::contact_problem::ContactProblem;
 use super::impact::SurfacePair;
 use super::impact_solver::REST_SPEED;
 use super::nearby_pairs::NearbyPairs;
+use super::open_joints::Stabilization;
 use super::reduced_coordinates::Mechanisms;
 use super::resting_pairs::RestingSet;
 use super::sleeping_bodies::SleepingBodies;
@@ -14,22 +15,22 @@ use super::time_stepping::PendingImpact;
 use crate::articulation::{Constraint, Limit};
 use crate::collision::{Collider, ManifoldPoint, Pair, TOUCH};
 use crate::dynamics::clutches::Clutches;
-use crate::dynamics::limits::Limits;
+use crate::dynamics::limits::{BoundRow, Limits};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::spatial::Vec6;
 
-/// Hits resolved at their own time in one step; what is hit further rests.
-const MOST_IMPACTS: usize = 64;
+/// Impacts resolved at their own time in one step; further ones begin resting contact.
+const MAX_IMPACTS: usize = 64;
 
-/// Room for what meets in one substep; more makes the list grow.
-const PENDING_IMPACTS_CAPACITY: usize = 64;
+/// Capacity for impacts within one time step; more make the list grow.
+const PENDING_IMPACTS: usize = 64;
 
-/// All that can touch in a figure, and its state.
+/// All contacts of an articulation: surfaces, limits and clutches, and the forces between them.
 #[derive(Clone, Debug)]
 pub struct Contacts {
     pub(super) surfaces: Surfaces,
-    pub(super) near: NearbyPairs,
+    pub(super) nearby: NearbyPairs,
     pub(super) resting: RestingSet,
     pub(super) limits: Limits,
     pub(super) clutches: Clutches,
@@ -37,47 +38,56 @@ pub struct Contacts {
     pub(super) forces: ContactForces,
     pub(super) sleeping: SleepingBodies,
     pub(super) work: Work,
-    /// What met on the way of the last substep that was solved together.
+    /// Impacts of the last time step.
     pub(super) pending_impacts: Vec<PendingImpact>,
-    /// 1/ω₀ of the figure's stabiliser, s.
+    /// 1/ω₀ of the stabiliser, s.
     pub(super) stabilization_time: f64,
     /// When the present step began, s.
     pub(super) clock: f64,
-    /// Slip of the fastest touch that rests, m/s.
+    /// Slip of the fastest resting contact, m/s.
     pub(super) slip: f64,
-    /// Longest substep in which what rests sinks in by little, by the last one, s.
-    pub(super) fine: f64,
-    /// Hits that may yet be resolved in the present step.
+    /// Longest substep in which resting contacts sink in little, by the last substep, s.
+    pub(super) sinking_limit: f64,
+    /// Impacts that may still be resolved in the present step.
     pub(super) impacts_left: usize,
 }
 
-/// Work of hits and resting contacts, J; losses make it negative.
+/// Work of impacts and resting contacts, J; losses make it negative.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
-    /// Of all so far.
+    /// Of all substeps before.
     pub total: f64,
-    /// Of resting contacts over the present substep: it may yet be cut by a hit.
+    /// Of resting contacts over the present substep, which an impact may still cut.
     pub recent: f64,
 }
 
+/// What contacts are made of.
+#[derive(Clone, Debug)]
+pub(in crate::dynamics) struct ContactSetup<'a> {
+    pub colliders: &'a [Collider],
+    pub pairs: Vec<SurfacePair>,
+    pub limits: &'a [Limit],
+    /// All constraints, clutches among them.
+    pub constraints: &'a [Constraint],
+    /// The bodies in their start state.
+    pub bodies: &'a [RigidBody],
+    /// Whether each body is kinematic.
+    pub is_kinematic: &'a [bool],
+    pub stabilization: Stabilization,
+}
+
 impl Contacts {
-    /// The contacts of a figure with these colliders, limits and clutches among its constraints, whose joints have this many
-    /// rows and are drawn together with this time constant (s).
-    pub fn new(
-        colliders: &[Collider],
-        pairs: Vec<SurfacePair>,
-        (limits, constraints): (&[Limit], &[Constraint]),
-        (bodies, is_kinematic): (&[RigidBody], &[bool]),
-        joints: (usize, f64),
-    ) -> Self {
+    /// The contacts of an articulation; none rests yet.
+    pub(in crate::dynamics) fn new(setup: ContactSetup) -> Self {
+        let ContactSetup { colliders, pairs, limits, constraints, bodies, is_kinematic, stabilization } = setup;
         let limits = Limits::new(limits, bodies);
         let clutches = Clutches::new(constraints);
-        let turning = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
-        let contacts = crate::collision::MANIFOLD_POINTS * (pairs.len() + turning) + limits.count() + clutches.count();
-        let problem = ContactProblem::new(contacts, Mechanisms::new(constraints, is_kinematic), joints);
+        let rolling = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
+        let contacts = crate::collision::MANIFOLD_POINTS * (pairs.len() + rolling) + limits.count() + clutches.count();
+        let problem = ContactProblem::new(contacts, Mechanisms::new(constraints, is_kinematic), stabilization);
         let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
-            near: NearbyPairs::new(colliders, &bare, bodies.len()),
+            nearby: NearbyPairs::new(colliders, &bare, bodies.len()),
             resting: RestingSet::new(pairs.len()),
             surfaces: Surfaces::new(colliders, pairs, bodies),
             forces: ContactForces::new(contacts, problem.contacts.capacity(), bodies.len()),
@@ -86,54 +96,54 @@ impl Contacts {
             clutches,
             problem,
             work: Work::default(),
-            pending_impacts: Vec::with_capacity(PENDING_IMPACTS_CAPACITY),
-            stabilization_time: joints.1,
+            pending_impacts: Vec::with_capacity(PENDING_IMPACTS),
+            stabilization_time: stabilization.time,
             clock: 0.0,
             slip: 0.0,
-            fine: f64::INFINITY,
-            impacts_left: MOST_IMPACTS,
+            sinking_limit: f64::INFINITY,
+            impacts_left: MAX_IMPACTS,
         }
     }
 
     /// Begins a step at the time `now`, s.
     pub(in crate::dynamics) fn begin_step(&mut self, now: f64) {
-        self.impacts_left = MOST_IMPACTS;
-        self.near.measured = 0;
+        self.impacts_left = MAX_IMPACTS;
+        self.nearby.measured = 0;
         self.clock = now;
     }
 
-    /// Adds the forces that hold what rests, each at where its point will be in the middle of the substep.
+    /// Adds the forces of resting contacts to the bodies' wrenches, each at its point in the middle of the substep.
     pub(in crate::dynamics) fn apply_contact_forces(&self, external: &mut [Vec6]) {
-        self.forces.apply_contact_forces(external);
+        self.forces.apply(external);
     }
 
-    /// Keeps the forces that the substep begins with, for the case that it is gone through again.
+    /// Keeps the forces at the start of a substep, in case it is repeated.
     pub(in crate::dynamics) fn begin_substep(&mut self) {
         self.forces.begin_substep(&self.clutches);
     }
 
-    /// Ends a substep: turns are counted on from where the bodies are now.
+    /// Ends a substep: counts full turns of limits up to the bodies' present state.
     pub(in crate::dynamics) fn end_substep(&mut self, bodies: &[RigidBody]) {
         self.limits.follow(bodies);
         self.work.total += std::mem::take(&mut self.work.recent);
     }
 
-    /// The present substep has not been: it is cut by a hit.
+    /// Discards the work of the present substep, which an impact cuts.
     pub(in crate::dynamics) fn cut_substep(&mut self) {
         self.work.recent = 0.0;
     }
 
-    /// Operations since this was last asked (`dynamics/operations.rs`).
+    /// Operations since the last call (`dynamics/work_budget.rs`).
     pub(in crate::dynamics) fn take_operations(&mut self) -> u64 {
         std::mem::take(&mut self.problem.operations)
     }
 
-    /// How many pairs of colliders have been measured in the present step: those whose boxes overlapped.
+    /// Number of pairs of colliders measured in the present step: those whose boxes overlapped.
     pub(in crate::dynamics) fn measured(&self) -> usize {
-        self.near.measured
+        self.nearby.measured
     }
 
-    /// Is there nothing that could meet or reach a bound?
+    /// Whether there are no pairs and no limits.
     pub(in crate::dynamics) fn is_empty(&self) -> bool {
         self.surfaces.pairs.is_empty() && self.limits.count() == 0
     }
@@ -143,38 +153,37 @@ impl Contacts {
         &self.clutches
     }
 
-    /// Work of all hits and resting contacts so far, J.
+    /// Work of all impacts and resting contacts so far, J.
     pub(in crate::dynamics) fn work(&self) -> f64 {
         self.work.total
     }
 
-    /// Finds what touches where the figure begins and does not hit: it rests from the first substep on.
+    /// Puts pairs that touch without approach at the start in resting contact.
     pub(in crate::dynamics) fn find_resting_contacts(&mut self, bodies: &[RigidBody]) {
-        self.near.find(bodies, bodies, &self.sleeping.bodies);
-        for near in 0..self.near.list.len() {
-            let pair = self.near.list[near];
+        self.nearby.find(bodies, bodies, &self.sleeping.bodies);
+        for index in 0..self.nearby.list.len() {
+            let pair = self.nearby.list[index];
             let manifold = self.surfaces.manifold(pair, bodies);
             let speed = |at: &ManifoldPoint| self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal);
             let mut closed = manifold.points().iter().filter(|at| at.gap <= TOUCH).peekable();
             if closed.peek().is_some() && closed.all(|at| speed(at).abs() < REST_SPEED) {
-                self.resting.set(pair, true);
+                self.resting.set_pair(pair, true);
             }
         }
     }
 
-    /// Forgets all rest, for bodies that were put elsewhere.
-    pub(in crate::dynamics) fn forget(&mut self, bodies: &[RigidBody]) {
-        self.resting.forget();
-        self.forces.forget();
-        self.sleeping.at_rest = 0;
-        self.fine = f64::INFINITY;
-        self.limits.forget(bodies);
+    /// Ends all resting contact, for bodies that were moved.
+    pub(in crate::dynamics) fn restart(&mut self, bodies: &[RigidBody]) {
+        self.resting.clear();
+        self.forces.clear();
+        self.sleeping.resting = 0;
+        self.sinking_limit = f64::INFINITY;
+        self.limits.restart(bodies);
     }
 
-    /// Adds a bound of a limit to the problem, its value `gap` away.
+    /// Adds a bound of a limit to the problem.
     pub(super) fn push_bound(&mut self, bound: usize, bodies: &[RigidBody]) {
-        let (gap, row, point) = self.limits.row(bound, bodies);
-        let contact = Contact::new(Source::Bound(bound), point, DVec3::ZERO, gap, 0.0);
-        self.problem.push(contact, &[row]);
+        let BoundRow { gap, row, point } = self.limits.row(bound, bodies);
+        self.problem.push(Contact::new(ContactKind::Limit { bound }, point, DVec3::ZERO, gap), &[row]);
     }
 }

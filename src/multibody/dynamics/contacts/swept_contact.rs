@@ -1,77 +1,79 @@
-//! What met on a way that bodies were moved along without regard to it: where, how deep, and how to get out again.
+//! Swept contacts: contacts that bodies passed on a prescribed displacement, with the depth to move them out again.
 //!
-//! Where two surfaces overlap at the way's end on the side on which they met, every point of their manifold counts with
-//! its own depth. Where one has gone through the other (thin sheet, a long way) the end says nothing: the depth is then
-//! how far the points that met have gone past each other along the normal they met with.
+//! Where two surfaces overlap at the end on the side of their first contact, every point of their manifold has its own depth.
+//! Where one surface has passed through the other (a thin sheet, a long displacement), the depth is how far their first points
+//! of contact have passed each other along the normal at first contact.
 
 use super::contact::RollingResistance;
 use super::impact::SurfacePair;
 use super::jacobian_row::{JacobianRow, MAX_ROW_BODIES, point_rows, rolling_resistance_rows};
+use super::nearby_pairs::SweptPair;
 use super::state::Contacts;
 use crate::collision::{Collider, Pair, Shape, TOUCH};
+use crate::dynamics::limits::BoundRow;
 use soffio_geometry::bodies::RigidBody;
 use soffio_geometry::support::Core;
 use soffio_math::DVec3;
 use soffio_math::spatial::Vec6;
 
-/// Cosine between the normals at the meeting and at the end above which the side is the same.
+/// Surfaces overlap on the side of their first contact where the cosine of both normals is larger.
 const SAME_SIDE: f64 = 0.5;
 
-/// One point where two bodies met, or one bound that was passed.
+/// One contact point, or one bound of a limit, that a displacement passed.
 #[derive(Clone, Copy, Debug)]
 pub struct SweptContact {
-    /// Which pair it is, or which bound (counted on from the pairs).
+    /// Index of the pair, or of the bound plus the number of pairs.
     pub source: usize,
-    /// Share of the way after which they met, 0 … 1.
+    /// Fraction of the displacement at the first contact, 0 … 1.
     pub s: f64,
     /// The two bodies; `None` is the world.
     pub bodies: [Option<usize>; 2],
     /// Indices of the two colliders; `None` at a limit.
     pub colliders: Option<[usize; 2]>,
-    /// World, m, at the way's end.
+    /// World point at the end, m.
     pub point: DVec3,
     /// Unit, from the second collider to the first; zero at a limit.
     pub normal: DVec3,
-    /// How far to move out, m (rad at a limit of an angle); not below 0.
+    /// Penetration at the end, m (rad at a limit of an angle); not below 0.
     pub depth: f64,
     /// Coulomb coefficient.
     pub friction: f64,
     /// Coefficient of restitution.
     pub restitution: f64,
-    /// Against rolling and spinning.
+    /// Resistance to rolling and spinning.
     pub resistance: RollingResistance,
-    /// Which of the two colliders are balls: centre (node frame) and radius, m.
+    /// Centre (node frame, m) and radius (m) of each of the two colliders that is a ball.
     pub balls: [Option<(DVec3, f64)>; 2],
-    /// The row J whose J v is the rate at which they part.
+    /// Jacobian row J of the gap: J v is the separation speed.
     pub ends: [Option<(usize, Vec6)>; MAX_ROW_BODIES],
 }
 
 impl SweptContact {
-    /// J v: the rate at which they part, m/s (rad/s).
+    /// J v: the separation speed, m/s (rad/s at a limit of an angle).
     pub fn rate(&self, bodies: &[RigidBody]) -> f64 {
         JacobianRow { ends: self.ends }.rate(bodies)
     }
 }
 
-/// Rows of the couple between the bodies of what met: about the normal, then about two tangents.
-pub fn rolling_rows(met: &SweptContact) -> [[Option<(usize, Vec6)>; MAX_ROW_BODIES]; 3] {
-    rolling_resistance_rows(met.normal, met.bodies).map(|row| row.ends)
+/// Jacobian rows of the relative rotation of a contact's bodies: about the normal, then about two tangents.
+pub fn rolling_rows(contact: &SweptContact) -> [[Option<(usize, Vec6)>; MAX_ROW_BODIES]; 3] {
+    rolling_resistance_rows(contact.normal, contact.bodies).map(|row| row.ends)
 }
 
 impl Contacts {
-    /// How many pairs and bounds there are: sources of what meets.
-    pub fn sources(&self) -> usize {
+    /// Number of pairs and bounds together; [`SweptContact::source`] is below it.
+    pub fn source_count(&self) -> usize {
         self.surfaces.pairs.len() + self.limits.count()
     }
 
-    /// Everything that met between two states of the bodies and still does at the second, by its source, into `out`, as
-    /// far as that has room.
+    /// Writes all contacts that were passed between two states of the bodies and are closed at the second into `out`, by their
+    /// sources, up to its capacity.
     pub fn find_swept_contacts(&mut self, before: &[RigidBody], after: &[RigidBody], out: &mut Vec<SweptContact>) {
         out.clear();
         if !self.surfaces.pairs.is_empty() {
-            self.near.find(before, after, &self.sleeping.bodies);
-            for near in 0..self.near.list.len() {
-                self.look_at_pair(self.near.list[near], after, out);
+            self.nearby.find(before, after, &self.sleeping.bodies);
+            for index in 0..self.nearby.list.len() {
+                self.find_swept_pair(self.nearby.list[index], after, out);
             }
         }
         for bound in 0..self.limits.count() {
@@ -79,7 +81,7 @@ impl Contacts {
             if gap > TOUCH || out.len() == out.capacity() {
                 continue;
             }
-            let (_, row, point) = self.limits.row(bound, after);
+            let BoundRow { row, point, .. } = self.limits.row(bound, after);
             out.push(SweptContact {
                 source: self.surfaces.pairs.len() + bound,
                 s: 1.0,
@@ -97,11 +99,11 @@ impl Contacts {
         }
     }
 
-    fn look_at_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<SweptContact>) {
+    fn find_swept_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<SweptContact>) {
         let Pair { a, b } = self.surfaces.pairs[pair].pair;
-        let ((sweep_a, sweep_b), toi) = self.near.sweep_pair(&mut self.surfaces, pair);
-        let Some(toi) = toi else { return };
-        let (s, normal) = (toi.s, toi.proximity.normal);
+        let SweptPair { sweeps: [sweep_a, sweep_b], impact } = self.nearby.sweep_pair(&mut self.surfaces, pair);
+        let Some(impact) = impact else { return };
+        let (s, normal) = (impact.s, impact.proximity.normal);
         let mut add = |point: DVec3, normal: DVec3, gap: f64| {
             let bodies = [self.surfaces.colliders[a].body, self.surfaces.colliders[b].body];
             if gap > TOUCH || out.len() == out.capacity() {
@@ -138,31 +140,31 @@ impl Contacts {
         if manifold.normal.dot(normal) > SAME_SIDE {
             manifold.points().iter().for_each(|at| add(at.point, manifold.normal, at.gap));
         } else {
-            let at = toi.proximity.point;
+            let at = impact.proximity.point;
             let [p, q] = [(collider_a, &sweep_a), (collider_b, &sweep_b)]
                 .map(|(collider, sweep)| pose(collider).point(sweep.pose(s).inverse_point(at)));
-            add(0.5 * (p + q), normal, toi.proximity.gap + (p - q).dot(normal));
+            add(0.5 * (p + q), normal, impact.proximity.gap + (p - q).dot(normal));
         }
     }
 
-    /// How many bounds there are.
-    pub fn bounds(&self) -> usize {
+    /// Number of bounds of all limits.
+    pub fn bound_count(&self) -> usize {
         self.limits.count()
     }
 
-    /// The bodies that a bound is between.
+    /// The two bodies of a bound; `None` is the world.
     pub fn bound_bodies(&self, bound: usize) -> [Option<usize>; 2] {
         self.limits.bodies(bound)
     }
 
-    /// What is left to a bound, rad or m; negative beyond it.
+    /// Distance from a bound, rad or m; negative beyond it.
     pub fn bound_gap(&self, bound: usize, bodies: &[RigidBody]) -> f64 {
         self.limits.gap(bound, bodies)
     }
 
-    /// The same and its row.
+    /// Distance from a bound, rad or m, and its Jacobian row.
     pub fn bound(&self, bound: usize, bodies: &[RigidBody]) -> (f64, [Option<(usize, Vec6)>; MAX_ROW_BODIES]) {
-        let (gap, row, _) = self.limits.row(bound, bodies);
+        let BoundRow { gap, row, .. } = self.limits.row(bound, bodies);
         (gap, row.ends)
     }
 }

@@ -11,7 +11,7 @@ use soffio_multibody::dynamics::{
 
 const G: f64 = 9.81;
 const DT: f64 = 1.0 / 240.0;
-/// What the project promises of joints; rounding of a metre-sized figure is a thousand times less.
+/// Bar of the joints, m; the rounding of a metre-sized mechanism is a thousand times less.
 const JOINT_ERROR: f64 = 1e-9;
 
 fn settings(friction: bool) -> Settings {
@@ -34,7 +34,7 @@ fn joint(name: &str, a: (Option<usize>, DVec3), b: (Option<usize>, DVec3)) -> Co
     Constraint::new(name, ConstraintKind::PointToPoint { a: anchor(a), b: anchor(b) })
 }
 
-fn figure<'a>(bodies: Vec<RigidBody>, constraints: &'a [Constraint]) -> Articulation<'a> {
+fn articulation<'a>(bodies: Vec<RigidBody>, constraints: &'a [Constraint]) -> Articulation<'a> {
     let damping = vec![Damping::default(); bodies.len()];
     Articulation {
         bodies,
@@ -49,10 +49,10 @@ fn figure<'a>(bodies: Vec<RigidBody>, constraints: &'a [Constraint]) -> Articula
 }
 
 fn run(dynamics: &mut Dynamics, seconds: f64) -> Vec<Impact> {
-    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     let mut impacts = Vec::new();
     for _ in 0..(seconds / DT).round() as usize {
-        assert_eq!(dynamics.step(DT, &still, &mut impacts), None, "bad numbers");
+        assert_eq!(dynamics.step(DT, &no_wrenches, &mut impacts), None, "bad numbers");
     }
     impacts
 }
@@ -60,9 +60,9 @@ fn run(dynamics: &mut Dynamics, seconds: f64) -> Vec<Impact> {
 /// A rod pendulum of length `l` released at `angle` about z.
 fn pendulum(l: f64, angle: f64) -> (Vec<RigidBody>, Vec<Constraint>) {
     let inertia = DVec3::new(1.0, 0.01, 1.0) * (0.1 * l * l / 12.0);
-    let turn = rotation(DVec3::Z * angle);
-    let mut rod = body(0.1, inertia, turn * DVec3::new(0.0, -0.5 * l, 0.0));
-    rod.rotation = turn;
+    let orientation = rotation(DVec3::Z * angle);
+    let mut rod = body(0.1, inertia, orientation * DVec3::new(0.0, -0.5 * l, 0.0));
+    rod.rotation = orientation;
     (vec![rod], vec![joint("nail", (Some(0), DVec3::new(0.0, 0.5 * l, 0.0)), (None, DVec3::ZERO))])
 }
 
@@ -72,12 +72,12 @@ fn a_pendulum_keeps_the_elliptic_period() {
     const PERIOD: f64 = 1e-6;
     let (l, angle) = (0.4, 0.5);
     let (bodies, constraints) = pendulum(l, angle);
-    let mut dynamics = Dynamics::new(figure(bodies, &constraints), settings(false));
-    let still = vec![[0.0; 6]];
+    let mut dynamics = Dynamics::new(articulation(bodies, &constraints), settings(false));
+    let no_wrenches = vec![[0.0; 6]];
     let mut crossings = Vec::new();
     let mut before = dynamics.bodies[0].position.x;
     for step in 0..240 * 20 {
-        dynamics.step(DT, &still, &mut Vec::new());
+        dynamics.step(DT, &no_wrenches, &mut Vec::new());
         let x = dynamics.bodies[0].position.x;
         if before < 0.0 && x >= 0.0 {
             crossings.push((f64::from(step) + before / (before - x)) * DT);
@@ -102,7 +102,7 @@ fn chain(n: usize) -> (Vec<RigidBody>, Vec<Constraint>) {
     for i in 0..n {
         let mut rod = body(0.02, DVec3::new(1.7e-5, 1e-6, 1.7e-5), DVec3::new(0.0, -l * (i as f64 + 0.5), 0.0));
         rod.angular_velocity = DVec3::ZERO;
-        // A rigid turn about the nail: the joints' speeds agree.
+        // A rigid rotation about the nail: the joints' velocities agree.
         let spin = DVec3::new(0.6, 0.3, 1.2);
         rod.velocity = spin.cross(rod.position);
         rod.angular_velocity += spin;
@@ -118,7 +118,7 @@ fn energy_is_kept_without_wind_and_friction() {
     // The bar of the product: 1e-6 of the motion's energy over a minute.
     const DRIFT: f64 = 1e-6;
     let (bodies, constraints) = chain(4);
-    let mut dynamics = Dynamics::new(figure(bodies, &constraints), settings(false));
+    let mut dynamics = Dynamics::new(articulation(bodies, &constraints), settings(false));
     let start = dynamics.energy();
     let scale: f64 = dynamics.bodies.iter().map(RigidBody::kinetic_energy).sum();
     let mut worst: f64 = 0.0;
@@ -132,7 +132,7 @@ fn energy_is_kept_without_wind_and_friction() {
 
 #[test]
 fn pivot_friction_stops_a_wheel_when_coulomb_says() {
-    // A disc hung at its centre, spinning about the vertical: dω/dt = −μ m g r / I, then still for good.
+    // A disc on a nail at its centre, spinning about the vertical: dω/dt = −μ m g r / I, then still for good.
     const SPREAD: f64 = 0.01;
     let (mass, inertia, mu, r, spin) = (0.5, 1e-3, 0.3, 0.001, 2.0);
     let mut disc = body(mass, DVec3::new(5e-4, inertia, 5e-4), DVec3::ZERO);
@@ -140,7 +140,7 @@ fn pivot_friction_stops_a_wheel_when_coulomb_says() {
     let mut nail = joint("nail", (Some(0), DVec3::new(0.0, 0.01, 0.0)), (None, DVec3::new(0.0, 0.01, 0.0)));
     nail.friction = Some(PivotFriction { coefficient: mu, radius: r });
     let constraints = [nail];
-    let mut dynamics = Dynamics::new(figure(vec![disc], &constraints), settings(true));
+    let mut dynamics = Dynamics::new(articulation(vec![disc], &constraints), settings(true));
     let rate = mu * mass * G * r / inertia;
     run(&mut dynamics, 0.5 * spin / rate);
     let half = dynamics.bodies[0].angular_velocity.y;
@@ -150,14 +150,14 @@ fn pivot_friction_stops_a_wheel_when_coulomb_says() {
 }
 
 #[test]
-fn a_scattered_figure_gathers_itself() {
+fn a_scattered_articulation_closes_its_joints() {
     let (mut bodies, constraints) = chain(3);
     for (i, rod) in bodies.iter_mut().enumerate() {
         rod.velocity = DVec3::ZERO;
         rod.angular_velocity = DVec3::ZERO;
         rod.position += DVec3::new(0.2, 0.1, -0.15) * (1.0 + i as f64);
     }
-    let mut dynamics = Dynamics::new(figure(bodies, &constraints), settings(false));
+    let mut dynamics = Dynamics::new(articulation(bodies, &constraints), settings(false));
     run(&mut dynamics, 3.0);
     assert!(dynamics.joint_error() < JOINT_ERROR, "{} m apart", dynamics.joint_error());
 }
@@ -192,13 +192,13 @@ fn thin_plates_at_speed_never_pass_through_each_other() {
         let mut flying = body(0.02, inertia, DVec3::new(0.01, 0.005 * trial as f64, 0.3));
         flying.velocity = DVec3::new(0.0, 0.0, -speed);
         flying.angular_velocity = DVec3::new(3.0, -2.0, 1.0);
-        let still = body(0.02, inertia, DVec3::ZERO);
+        let standing = body(0.02, inertia, DVec3::ZERO);
         let colliders = [disc_collider(0, r, t), disc_collider(1, r, t)];
-        let mut figure = figure(vec![flying, still], &[]);
-        figure.colliders = &colliders;
-        figure.pairs = surfaces(&colliders, 0.5, 0.3);
+        let mut articulation = articulation(vec![flying, standing], &[]);
+        articulation.colliders = &colliders;
+        articulation.pairs = surfaces(&colliders, 0.5, 0.3);
         let settings = Settings { gravity: DVec3::ZERO, ..settings(true) };
-        let mut dynamics = Dynamics::new(figure, settings);
+        let mut dynamics = Dynamics::new(articulation, settings);
         let momentum = |d: &Dynamics| d.bodies.iter().map(|b| b.properties.mass * b.velocity).sum::<DVec3>();
         let spin = |d: &Dynamics| {
             d.bodies
@@ -209,7 +209,7 @@ fn thin_plates_at_speed_never_pass_through_each_other() {
         let (p, l, e) = (momentum(&dynamics), spin(&dynamics), dynamics.energy());
         let impacts = run(&mut dynamics, 0.1);
         assert!(!impacts.is_empty(), "trial {trial}: passed through");
-        // Momentum and angular momentum: rounding through hits, and RK4 on the free spin,
+        // Momentum and angular momentum: rounding through impacts, and RK4 on the free spin,
         // 3e-10 a step at 160 rad/s.
         assert!((momentum(&dynamics) - p).length() < 1e-12, "trial {trial}");
         let turned = (spin(&dynamics) - l).length();
@@ -236,14 +236,14 @@ fn two_pendulums_trade_their_speed_as_newton_says() {
     bodies[0].position = DVec3::new(0.0, 0.5, 0.0) + rotation(DVec3::Z * angle) * DVec3::new(0.0, -0.5, 0.0);
     bodies[0].rotation = rotation(DVec3::Z * angle);
     let colliders = [sphere(0), sphere(1)];
-    let mut figure = figure(bodies, &constraints);
-    figure.colliders = &colliders;
-    figure.pairs = surfaces(&colliders, 1.0, 0.0);
-    let mut dynamics = Dynamics::new(figure, settings(false));
-    let still = vec![[0.0; 6]; 2];
+    let mut articulation = articulation(bodies, &constraints);
+    articulation.colliders = &colliders;
+    articulation.pairs = surfaces(&colliders, 1.0, 0.0);
+    let mut dynamics = Dynamics::new(articulation, settings(false));
+    let no_wrenches = vec![[0.0; 6]; 2];
     let mut impacts: Vec<Impact> = Vec::new();
     while impacts.is_empty() {
-        dynamics.step(DT, &still, &mut impacts);
+        dynamics.step(DT, &no_wrenches, &mut impacts);
     }
     assert_eq!(impacts[0].kind, ImpactKind::Impact);
     let left = dynamics.bodies[0].velocity.length();
@@ -252,7 +252,7 @@ fn two_pendulums_trade_their_speed_as_newton_says() {
     let (m, l, i) = (0.1, 0.5, 0.4 * 0.1 * r * r);
     let expected = l * sqrt(2.0 * m * G * l * (1.0 - angle.cos()) / (m * l * l + i));
     assert!((gone / expected - 1.0).abs() < TRADED, "{gone} against {expected} m/s");
-    // What it keeps it gained from gravity in the rest of the step.
+    // Gravity gives it that speed in the remainder of the step.
     assert!(left < 0.02 * expected, "kept {left} m/s");
     assert!((impacts[0].speed / expected - 1.0).abs() < TRADED);
     assert!(dynamics.joint_error() < JOINT_ERROR);
@@ -272,10 +272,10 @@ fn a_plate_that_leans_on_another_rests_without_jitter_or_sinking() {
     let ends = [-0.05, 0.05].map(|z| DVec3::new(0.06, -0.3, z));
     let peg = Collider { body: None, shape: Shape::capsule(ends[0], ends[1], 0.01), material: 0, node: "".into() };
     let colliders = [rod, peg];
-    let mut figure = figure(bodies, &constraints);
-    figure.colliders = &colliders;
-    figure.pairs = surfaces(&colliders, 0.4, 0.3);
-    let mut dynamics = Dynamics::new(figure, settings(true));
+    let mut articulation = articulation(bodies, &constraints);
+    articulation.colliders = &colliders;
+    articulation.pairs = surfaces(&colliders, 0.4, 0.3);
+    let mut dynamics = Dynamics::new(articulation, settings(true));
     let hits = run(&mut dynamics, 6.0);
     assert!(hits.iter().any(|i| i.kind == ImpactKind::RestingContact), "it never came to rest: {hits:?}");
     let place = dynamics.bodies[0].position;
@@ -285,7 +285,7 @@ fn a_plate_that_leans_on_another_rests_without_jitter_or_sinking() {
     // so a held body slips by half its acceleration times the substep squared, a few micrometres a second.
     const SINK: f64 = 1e-9;
     const CREEP: f64 = 2e-5;
-    let moved = dynamics.bodies[0].position - place;
-    assert!(moved.x.hypot(moved.y) < SINK && moved.z.abs() < CREEP, "moved by {moved}");
+    let displacement = dynamics.bodies[0].position - place;
+    assert!(displacement.x.hypot(displacement.y) < SINK && displacement.z.abs() < CREEP, "moved by {displacement}");
     assert!(dynamics.bodies[0].velocity.length() < 1e-4);
 }

@@ -118,7 +118,7 @@ fn clock(swing: f64) -> Dynamics {
         resistance: RollingResistance::default(),
     });
     let rate = (G / LENGTH).sqrt() / QUALITY;
-    let figure = Articulation {
+    let articulation = Articulation {
         bodies,
         damping: vec![Damping::default(), Damping { linear: rate, angular: rate }],
         constraints: &constraints,
@@ -135,7 +135,7 @@ fn clock(swing: f64) -> Dynamics {
         integrator: Integrator::RungeKutta,
         solver: Solver::Sparse,
     };
-    Dynamics::new(figure, settings)
+    Dynamics::new(articulation, settings)
 }
 
 /// Angle about z, rad.
@@ -145,20 +145,20 @@ fn angle(q: DQuat) -> f64 {
 
 /// What a run shows.
 #[derive(Debug, Default)]
-struct Run {
+struct Record {
     /// Turn of the wheel at each passage of the pendulum through the vertical, rad, clockwise.
     beats: Vec<f64>,
     /// Largest angle before each.
     swings: Vec<f64>,
     /// Turn of the wheel in all, rad.
-    turn: f64,
+    wheel_angle: f64,
     /// Loss to the air, J.
     damped: f64,
     impacts: Vec<Impact>,
 }
 
-fn run(clock: &mut Dynamics, seconds: f64) -> Run {
-    let mut run = Run::default();
+fn run(clock: &mut Dynamics, seconds: f64) -> Record {
+    let mut run = Record::default();
     let external = [[0.0, 0.0, 0.0, 0.0, 0.0, -TORQUE], [0.0; 6]];
     let rate = (G / LENGTH).sqrt() / QUALITY;
     let (mut before, mut largest) = (angle(clock.bodies[PENDULUM].rotation), 0f64);
@@ -171,13 +171,13 @@ fn run(clock: &mut Dynamics, seconds: f64) -> Run {
         assert_eq!(clock.step(DT, &external, &mut run.impacts), None, "bad numbers");
         run.damped += 0.5 * DT * loss(clock);
         let turned = angle(clock.bodies[WHEEL].rotation);
-        let way = turned - wheel;
-        run.turn -= way - 2.0 * PI * (way / (2.0 * PI)).round();
+        let step_angle = turned - wheel;
+        run.wheel_angle -= step_angle - 2.0 * PI * (step_angle / (2.0 * PI)).round();
         wheel = turned;
         let now = angle(clock.bodies[PENDULUM].rotation);
         largest = largest.max(now.abs());
         if before * now < 0.0 {
-            run.beats.push(run.turn);
+            run.beats.push(run.wheel_angle);
             run.swings.push(largest);
             largest = 0.0;
         }
@@ -192,7 +192,7 @@ fn assert_keeps_going(swing: f64, settles: f64, minutes: usize) {
     const TOOTH_BY_TOOTH: f64 = 0.02;
     /// Swings of one side after the start, against each other.
     const STEADY: f64 = 0.01;
-    /// Energy that the ledger misses, of the drive's work: what moves sunken teeth out by micrometres, and the
+    /// Error of the energy balance, relative to the drive's work: moving sunken teeth out by micrometres, and the
     /// trapezoid rule at hits.
     const LEDGER: f64 = 1e-5;
     let mut clock = clock(swing);
@@ -215,7 +215,7 @@ fn assert_keeps_going(swing: f64, settles: f64, minutes: usize) {
             (least[side], most[side]) = (least[side].min(*swing), most[side].max(*swing));
         }
         beats += run.beats.len();
-        drive += TORQUE * run.turn;
+        drive += TORQUE * run.wheel_angle;
         damped += run.damped;
     }
     let each = began.elapsed().as_secs_f64() / (minutes as f64 * 60.0 / DT) * 1e6;

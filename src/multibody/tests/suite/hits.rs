@@ -1,4 +1,4 @@
-//! Hits on articulated figures: joints, energy, friction's cone and momentum, at random.
+//! Impacts on random mechanisms: joints, energy, the friction cone and momentum.
 
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
@@ -16,8 +16,8 @@ fn anchor(body: Option<usize>, point: DVec3) -> Anchor {
     Anchor { body, point }
 }
 
-/// A random tree of bodies on points and hinges, its velocities at peace with the joints.
-fn random_figure(random: &mut Random) -> (System, Vec<RigidBody>, bool) {
+/// A random tree of bodies on ball joints and hinges, whose velocities satisfy the joints.
+fn random_articulation(random: &mut Random) -> (System, Vec<RigidBody>, bool) {
     let count = 2 + (random.unit() * 5.0) as usize;
     let vector = |random: &mut Random| DVec3::new(random.signed(), random.signed(), random.signed());
     let mut bodies = Vec::new();
@@ -53,8 +53,8 @@ fn random_figure(random: &mut Random) -> (System, Vec<RigidBody>, bool) {
             }
         }
     }
-    let driven = vec![false; count];
-    let mut system = System::new(&bodies, &driven, &constraints, Solver::Sparse);
+    let is_kinematic = vec![false; count];
+    let mut system = System::new(&bodies, &is_kinematic, &constraints, Solver::Sparse);
     system.evaluate(&bodies);
     system.look_for_gaps();
     system.factor();
@@ -65,21 +65,21 @@ fn random_figure(random: &mut Random) -> (System, Vec<RigidBody>, bool) {
     (system, bodies, nailed)
 }
 
-/// Strikes random figures at random places, `count` times.
-fn assert_hits_keep_the_laws(count: u64) {
+/// Impacts on random mechanisms at random points, `count` times.
+fn assert_impacts_keep_the_laws(count: u64) {
     /// Bars of the project, relative to the speeds, impulses and energies at hand.
     const JOINTS: f64 = 1e-12;
     const MOMENTUM: f64 = 1e-12;
     const ENERGY: f64 = 1e-12;
     const CONE: f64 = 1e-12;
-    /// Worse conditioned effective masses have no inverse to speak of; those that have decide to this.
+    /// Effective inverse masses with a larger condition number have no usable inverse; others decide to this margin.
     const CONDITION: f64 = 1e6;
     const ROUNDED: f64 = 1e-6;
     let (mut worst, mut stuck, mut slid) = ([0f64; 4], 0, 0);
     let mut seconds = 0.0;
     for seed in 0..count {
         let mut random = Random::new(seed);
-        let (mut system, mut bodies, nailed) = random_figure(&mut random);
+        let (mut system, mut bodies, nailed) = random_articulation(&mut random);
         let first = (random.unit() * bodies.len() as f64) as usize;
         let second = (first + 1 + (random.unit() * (bodies.len() - 1) as f64) as usize) % bodies.len();
         let second = if random.unit() < 0.5 { Some(second) } else { None };
@@ -93,24 +93,24 @@ fn assert_hits_keep_the_laws(count: u64) {
             normal = -normal;
         }
         let friction = 1.2 * random.unit();
-        let hit = PointImpact { point, normal, bodies: [Some(first), second], friction, restitution: random.unit() };
+        let impact = PointImpact { point, normal, bodies: [Some(first), second], friction, restitution: random.unit() };
         let before = bodies.clone();
         let began = std::time::Instant::now();
-        let Some(struck) = resolve_point_impact(&hit, &mut system, &mut bodies) else { continue };
+        let Some(result) = resolve_point_impact(&impact, &mut system, &mut bodies) else { continue };
         seconds += began.elapsed().as_secs_f64();
         let energy = |bodies: &[RigidBody]| bodies.iter().map(RigidBody::kinetic_energy).sum::<f64>();
         let rise = (energy(&bodies) - energy(&before)) / energy(&before);
         worst[0] = worst[0].max(rise);
-        let p = struck.impulse;
+        let p = result.impulse;
         worst[1] = worst[1].max(p.truncate().length() / (friction * p.z).max(1e-300) - 1.0);
-        // Joints: their rates after the hit, by what velocity change they would still need.
+        // Joints: the velocity change that they would still need after the impact.
         let scale =
             bodies.iter().fold(0.0, |m: f64, b| m.max(b.velocity.length()).max(0.1 * b.angular_velocity.length()));
         system.solve_velocity(&bodies);
         let left = system.a.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
         worst[2] = worst[2].max(left / scale);
         if !nailed {
-            // A floating figure keeps its momentum but for what the world gives.
+            // A floating mechanism keeps its momentum but for the impulse of the world.
             let given = if second.is_some() {
                 DVec3::ZERO
             } else {
@@ -128,25 +128,25 @@ fn assert_hits_keep_the_laws(count: u64) {
             worst[3] = worst[3].max((p1 - p0 - given).length() / size);
             worst[3] = worst[3].max((l1 - l0 - point.cross(given)).length() / size);
         }
-        // Sticking at the end is what the inverse allows.
-        let after = struck.velocity + struck.k * p;
-        let inverse = struck.k.inverse();
+        // Whether it sticks at the end follows from the inverse.
+        let after = result.velocity + result.k * p;
+        let inverse = result.k.inverse();
         let holds = inverse.z_axis.truncate().length() <= friction * inverse.z_axis.z;
-        // Joints may leave K all but singular: then there is no inverse to ask.
+        // Joints may leave K nearly singular, without a usable inverse.
         let size = |m: &DMat3| m.to_cols_array().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let undone = size(&(struck.k * inverse - DMat3::IDENTITY));
-        if inverse.is_finite() && undone < ROUNDED && size(&struck.k) * size(&inverse) < CONDITION {
+        let undone = size(&(result.k * inverse - DMat3::IDENTITY));
+        if inverse.is_finite() && undone < ROUNDED && size(&result.k) * size(&inverse) < CONDITION {
             let margin = inverse.z_axis.truncate().length() / (friction * inverse.z_axis.z) - 1.0;
-            let says = from_rest(&struck.k, friction).1;
+            let says = from_rest(&result.k, friction).sticks;
             assert!(says == holds || margin.abs() < ROUNDED, "seed {seed}: {says}, by a margin of {margin}");
-            let still = after.truncate().length() < 1e-9 * struck.velocity.length();
-            stuck += usize::from(still);
-            slid += usize::from(!still);
-            assert!(!still || holds || margin.abs() < ROUNDED, "seed {seed}: stuck where it cannot");
+            let is_stuck = after.truncate().length() < 1e-9 * result.velocity.length();
+            stuck += usize::from(is_stuck);
+            slid += usize::from(!is_stuck);
+            assert!(!is_stuck || holds || margin.abs() < ROUNDED, "seed {seed}: stuck where it cannot");
         }
-        let approach = -after.z / struck.velocity.length();
+        let approach = -after.z / result.velocity.length();
         // A slip within a billionth of the speeds is none.
-        assert!(approach < 1e-6, "seed {seed}: still approaches at {}: {hit:?} {struck:?}", after.z);
+        assert!(approach < 1e-6, "seed {seed}: still approaches at {}: {impact:?} {result:?}", after.z);
         assert!(
             worst[0] <= ENERGY && worst[1] <= CONE && worst[2] <= JOINTS && worst[3] <= MOMENTUM,
             "seed {seed}: energy, cone, joints, momentum {worst:?}"
@@ -161,11 +161,11 @@ fn assert_hits_keep_the_laws(count: u64) {
 
 #[test]
 fn hits_keep_joints_energy_cone_and_momentum() {
-    assert_hits_keep_the_laws(10_000);
+    assert_impacts_keep_the_laws(10_000);
 }
 
 #[test]
 #[ignore = "a million figures: a minute of the machine"]
 fn a_million_hits_keep_joints_energy_cone_and_momentum() {
-    assert_hits_keep_the_laws(1_000_000);
+    assert_impacts_keep_the_laws(1_000_000);
 }

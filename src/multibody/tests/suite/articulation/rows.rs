@@ -9,7 +9,7 @@ use soffio_math::Function;
 use soffio_math::Interpolation;
 use soffio_math::noise::Random;
 use soffio_math::spatial::matrix;
-use soffio_math::spatial::{Vec6, dot, vec6};
+use soffio_math::spatial::{Vec6, angular, dot, linear, vec6};
 use soffio_math::{DMat3, Pose, rotation};
 use soffio_multibody::articulation::rows::coupling::{self, Gauge};
 use soffio_multibody::articulation::rows::{Row, Scene, orientation, plane, point};
@@ -196,7 +196,8 @@ fn driven_bodies_have_the_velocities_and_accelerations_they_say() {
                 body
             };
             let mut now = template;
-            let (acceleration, turn) = motion.at(t).place(&mut now);
+            let rate = motion.at(t).place(&mut now);
+            let (acceleration, turn) = (linear(&rate), angular(&rate));
             // Three points of the body say all of its motion.
             for arm in [vector(&mut random), vector(&mut random), vector(&mut random)] {
                 let r = now.arm(arm);

@@ -1,21 +1,21 @@
-//! What rests is left out until something comes: exactly still, and awake as if it had never slept.
+//! Sleep: bodies at rest are left out until something disturbs them, exactly still, and wake as if they had never slept.
 
 use soffio_multibody::articulation::{Anchor, Schedule, Window};
 
 use super::*;
 
 /// Long enough to come to rest and fall asleep, s.
-const NIGHT: f64 = 3.0;
-/// What is awake and what has slept come apart by no more than this in the half second after a hit, m: forces at rest are found
-/// to 1e-11 m/s, and a hit multiplies what there is.
+const SETTLING_TIME: f64 = 3.0;
+/// Difference of positions between a run awake and one asleep, half a second after an impact, m. Resting forces are found to
+/// 1e-11 m/s, and an impact multiplies that error.
 const SAME: f64 = 1e-8;
 /// The same of energy and the work of contacts, J.
-const LEDGER: f64 = 1e-10;
+const BALANCE: f64 = 1e-10;
 
 const HALF: DVec3 = DVec3::new(0.05, 0.02, 0.05);
 const BALL: f64 = 0.1;
 
-/// A ball on a block, a block apart, and a ball beside them above the first one's edge.
+/// A ball on a block, a second block apart, and a ball above the first one's edge.
 fn yard() -> Dynamics {
     let place = |x: f64| cube(0.4, HALF, DVec3::new(x, 0.02, 0.0));
     let drop = |x: f64, y: f64| ball(BALL, 0.02, DVec3::new(x, y, 0.0));
@@ -24,92 +24,92 @@ fn yard() -> Dynamics {
     Scene::new(bodies, colliders).dynamics()
 }
 
-/// Goes on for a time under a push on one body, N; `awake` disturbs the figure before each step.
-fn go_on(dynamics: &mut Dynamics, seconds: f64, (body, push): (usize, DVec3), awake: bool) {
+/// Runs under a push on one body, N; `awake` disturbs the bodies before each step.
+fn run_under(dynamics: &mut Dynamics, seconds: f64, (body, push): (usize, DVec3), awake: bool) {
     let mut wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     wrenches[body][..3].copy_from_slice(&push.to_array());
     for _ in 0..(seconds / DT).round() as usize {
         if awake {
             dynamics.disturb();
         }
-        assert_eq!(dynamics.step(DT, &wrenches, &mut Vec::new()), None, "bad numbers");
+        assert_eq!(dynamics.step(DT, &wrenches, &mut Vec::new()), None, "invalid numbers");
     }
 }
 
-fn who_sleeps(dynamics: &Dynamics) -> Vec<bool> {
+fn sleeping(dynamics: &Dynamics) -> Vec<bool> {
     (0..dynamics.bodies.len()).map(|body| dynamics.is_asleep(body)).collect()
 }
 
-/// Holds the ball up.
-const HELD: (usize, DVec3) = (3, DVec3::new(0.0, BALL * G, 0.0));
-/// Holds nothing.
-const NOTHING: (usize, DVec3) = (3, DVec3::ZERO);
+/// Supports the upper ball.
+const LIFT: (usize, DVec3) = (3, DVec3::new(0.0, BALL * G, 0.0));
+/// No push.
+const NO_PUSH: (usize, DVec3) = (3, DVec3::ZERO);
 
 #[test]
-fn what_rests_falls_asleep_and_does_not_change_by_a_bit() {
+fn resting_bodies_fall_asleep_and_do_not_change_by_a_bit() {
     let mut yard = yard();
-    go_on(&mut yard, NIGHT, HELD, false);
-    assert_eq!(who_sleeps(&yard), [true; 4]);
+    run_under(&mut yard, SETTLING_TIME, LIFT, false);
+    assert_eq!(sleeping(&yard), [true; 4]);
     let before = yard.bodies.clone();
-    go_on(&mut yard, 10.0, HELD, false);
+    run_under(&mut yard, 10.0, LIFT, false);
     assert_eq!(yard.bodies, before);
     assert!(before.iter().all(|body| body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO));
-    // What lies still presses all the same: the block and its ball, the ball alone, the block apart.
-    let weights: f64 = yard.contact_reports().map(|touch| touch.normal_force).sum();
+    // Sleeping bodies still press: the block and its ball, the ball alone, the second block.
+    let weights: f64 = yard.contact_reports().map(|report| report.normal_force).sum();
     assert!((weights / (0.4 + BALL + BALL + 0.4) / G - 1.0).abs() < 1e-6, "{weights} N");
 }
 
 #[test]
-fn a_hit_wakes_what_it_is_felt_by_as_if_it_had_been_awake() {
+fn an_impact_wakes_its_island_as_if_it_had_been_awake() {
     let runs = [false, true].map(|awake| {
         let mut yard = yard();
-        go_on(&mut yard, NIGHT, HELD, awake);
-        let ledger = yard.energy() - yard.contact_work();
-        let slept = who_sleeps(&yard);
-        // Let go, the ball falls on the block and bounces.
-        go_on(&mut yard, 0.5, NOTHING, awake);
-        (slept, who_sleeps(&yard), yard.energy() - yard.contact_work() - ledger, yard.bodies)
+        run_under(&mut yard, SETTLING_TIME, LIFT, awake);
+        let balance_before = yard.energy() - yard.contact_work();
+        let slept = sleeping(&yard);
+        // Released, the upper ball falls on the block and bounces.
+        run_under(&mut yard, 0.5, NO_PUSH, awake);
+        (slept, sleeping(&yard), yard.energy() - yard.contact_work() - balance_before, yard.bodies)
     });
     let [(slept, now, balance, bodies), (never, _, other_balance, others)] = runs;
     assert_eq!((slept, never), (vec![true; 4], vec![false; 4]));
-    assert_eq!(now, [false, false, true, false], "the block apart hears nothing of it");
+    assert_eq!(now, [false, false, true, false], "the second block does not wake");
     for (body, other) in bodies.iter().zip(&others) {
         let apart = body.position.distance(other.position);
         assert!(apart < SAME, "{apart} m apart");
     }
-    assert!((balance - other_balance).abs() < LEDGER, "{balance} and {other_balance} J");
+    assert!((balance - other_balance).abs() < BALANCE, "{balance} and {other_balance} J");
 }
 
 #[test]
-fn a_push_wakes_a_body_and_what_leans_on_it() {
+fn a_push_wakes_a_body_and_those_resting_on_it() {
     let mut yard = yard();
-    go_on(&mut yard, NIGHT, HELD, false);
-    // Too weak to move it; but who is pushed is awake, and stays so for a while.
-    go_on(&mut yard, DT, (0, DVec3::X * 1e-3), false);
-    assert_eq!(who_sleeps(&yard), [false, false, true, false]);
-    go_on(&mut yard, 0.01, NOTHING, false);
-    assert_eq!(who_sleeps(&yard)[..3], [false, false, true]);
+    run_under(&mut yard, SETTLING_TIME, LIFT, false);
+    // Too weak to move it; but a pushed body wakes, and stays awake for a while.
+    run_under(&mut yard, DT, (0, DVec3::X * 1e-3), false);
+    assert_eq!(sleeping(&yard), [false, false, true, false]);
+    run_under(&mut yard, 0.01, NO_PUSH, false);
+    assert_eq!(sleeping(&yard)[..3], [false, false, true]);
 }
 
 #[test]
-fn whoever_is_moved_wakes_with_a_word_or_without() {
-    for told in [true, false] {
+fn a_body_set_from_outside_wakes_with_a_notice_or_without() {
+    for notified in [true, false] {
         let mut yard = yard();
-        go_on(&mut yard, NIGHT, HELD, false);
+        run_under(&mut yard, SETTLING_TIME, LIFT, false);
         yard.bodies[2].velocity = DVec3::X;
-        if told {
+        if notified {
             yard.disturb();
         }
-        go_on(&mut yard, DT, HELD, false);
-        let way = yard.bodies[2].position.x - 0.5;
+        run_under(&mut yard, DT, LIFT, false);
+        let displacement = yard.bodies[2].position.x - 0.5;
         // Friction takes μ g from its speed.
         let slides = DT * (1.0 - 0.25 * G * DT);
-        assert!((way - slides).abs() < 1e-3 * slides, "{way} m instead of {slides}");
+        assert!((displacement - slides).abs() < 1e-3 * slides, "{displacement} m instead of {slides}");
     }
 }
 
 #[test]
-fn a_window_that_closes_lets_fall_what_slept_under_it() {
+fn a_body_falls_when_the_window_of_its_nail_closes_in_its_sleep() {
     const CLOSES: f64 = 4.0;
     let place = DVec3::Y * 0.5;
     let mut scene = Scene::new(vec![cube(0.4, HALF, place)], vec![block(0, HALF), floor()]);
@@ -120,24 +120,24 @@ fn a_window_that_closes_lets_fall_what_slept_under_it() {
     let windows = vec![Window { start: f64::NEG_INFINITY, end: CLOSES }];
     let schedule = Schedule { windows, ..Schedule::default() };
     scene.constraints.push(Constraint { schedule, ..Constraint::new("nail", kind) });
-    let mut hung = scene.dynamics();
-    go_on(&mut hung, CLOSES - DT, (0, DVec3::ZERO), false);
-    assert!(hung.is_asleep(0));
-    assert_eq!(hung.bodies[0].position, place);
-    go_on(&mut hung, 0.2 + DT, (0, DVec3::ZERO), false);
-    let fallen = 0.5 - hung.bodies[0].position.y;
+    let mut hanging = scene.dynamics();
+    run_under(&mut hanging, CLOSES - DT, (0, DVec3::ZERO), false);
+    assert!(hanging.is_asleep(0));
+    assert_eq!(hanging.bodies[0].position, place);
+    run_under(&mut hanging, 0.2 + DT, (0, DVec3::ZERO), false);
+    let fallen = 0.5 - hanging.bodies[0].position.y;
     assert!((fallen - 0.5 * G * 0.04).abs() < 1e-9, "fallen by {fallen} m");
 }
 
 #[test]
-fn what_creeps_is_awake() {
+fn a_creeping_body_is_awake() {
     /// m/s: a millimetre in a day.
     const CREEP: f64 = 1e-3 / 86_400.0;
     let mut scene = Scene::new(vec![ball(BALL, 0.02, DVec3::Y)], vec![sphere(0, 0.02), floor()]);
     scene.gravity = DVec3::ZERO;
     scene.bodies[0].velocity = DVec3::X * CREEP;
     let mut creeping = scene.dynamics();
-    go_on(&mut creeping, 60.0, (0, DVec3::ZERO), false);
-    let way = creeping.bodies[0].position.x;
-    assert!((way / (60.0 * CREEP) - 1.0).abs() < 1e-9, "crept {way} m");
+    run_under(&mut creeping, 60.0, (0, DVec3::ZERO), false);
+    let displacement = creeping.bodies[0].position.x;
+    assert!((displacement / (60.0 * CREEP) - 1.0).abs() < 1e-9, "crept {displacement} m");
 }

@@ -1,4 +1,4 @@
-//! What is hard on contacts: heavy bodies on light ones, many bodies, joints that gather past obstacles, teeth with play.
+//! Difficult contacts: heavy bodies on light ones, many bodies, joints that close past obstacles, teeth with play.
 
 use soffio_multibody::articulation::Term;
 
@@ -45,12 +45,12 @@ fn of_many_chimes_only_neighbours_are_measured() {
         scene.colliders.push(collider(Some(i), Shape::capsule(-end, end, radius)));
     }
     let mut dynamics = scene.dynamics();
-    let still = vec![[0.0; 6]; count];
+    let no_wrenches = vec![[0.0; 6]; count];
     let mut impacts = Vec::new();
     let mut most = 0.0_f64;
     for _ in 0..60 {
-        assert_eq!(dynamics.step(DT, &still, &mut impacts), None, "bad numbers");
-        // A cut substep looks twice.
+        assert_eq!(dynamics.step(DT, &no_wrenches, &mut impacts), None, "bad numbers");
+        // A cut substep measures twice.
         most = most.max(dynamics.measured_pairs() as f64 / f64::from(dynamics.substeps()));
     }
     let all = count * (count - 1) / 2;
@@ -60,7 +60,7 @@ fn of_many_chimes_only_neighbours_are_measured() {
     assert!(most < 4.0 * count as f64, "{most} of {all} pairs");
 }
 
-/// A chain of rods with colliders, hung at the origin, each rod put elsewhere.
+/// A chain of rods with colliders that hangs from the origin, each rod displaced.
 fn scattered(seed: u64) -> Scene {
     let (count, half, radius) = (6, 0.05, 0.006);
     let mut random = soffio_math::noise::Random::new(seed);
@@ -82,33 +82,33 @@ fn scattered(seed: u64) -> Scene {
 }
 
 #[test]
-fn what_gathers_past_obstacles_neither_bursts_nor_passes_through() {
-    /// Faster than this it would be thrown: the stabiliser draws half a metre together at 0.5/(e · 0.04 s).
+fn joints_closing_past_obstacles_neither_burst_nor_pass_through() {
+    /// Faster than this it would be thrown, m/s: the stabiliser closes half a metre at 0.5/(e · 0.04 s).
     const THROWN: f64 = 50.0;
-    let mut gathered = 0;
+    let mut closed = 0;
     let count = 24;
     for seed in 0..count {
         let scene = scattered(seed);
         let mut dynamics = scene.dynamics();
-        let still = vec![[0.0; 6]; dynamics.bodies.len()];
+        let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
         let mut fastest: f64 = 0.0;
         for step in 0..240 * 4 {
-            assert_eq!(dynamics.step(DT, &still, &mut Vec::new()), None, "seed {seed}, step {step}: bad numbers");
+            assert_eq!(dynamics.step(DT, &no_wrenches, &mut Vec::new()), None, "seed {seed}, step {step}: bad numbers");
             fastest = dynamics.bodies.iter().fold(fastest, |most, b| most.max(b.velocity.length()));
         }
         assert!(fastest < THROWN, "seed {seed}: {fastest} m/s");
         // Rods may be caught crosswise; most are not.
-        gathered += u64::from(dynamics.joint_error() < 1e-9);
+        closed += u64::from(dynamics.joint_error() < 1e-9);
         let now = dynamics.bodies.iter().fold(0.0, |most: f64, b| most.max(b.velocity.length()));
         assert!(now < 2.0, "seed {seed}: still {now} m/s");
     }
-    println!("{gathered} of {count} gathered");
-    assert!(gathered * 4 >= 3 * count, "{gathered} of {count} gathered");
+    println!("{closed} of {count} gathered");
+    assert!(closed * 4 >= 3 * count, "{closed} of {count} gathered");
 }
 
 #[test]
-fn an_obstacle_in_the_way_holds_a_gathering_body_without_growing_force() {
-    // A ball is drawn to a nail behind a wall: it lies against the wall, and the wall bears what the stabiliser asks.
+fn an_obstacle_stops_a_closing_joint_without_growing_force() {
+    // A ball is pulled to a nail behind a wall: it rests against the wall, which bears the stabiliser's force.
     let r = 0.01;
     let mut scene = Scene::new(vec![ball(0.1, r, DVec3::new(0.05, 0.0, 0.0))], Vec::new());
     scene.gravity = DVec3::ZERO;
@@ -135,7 +135,7 @@ fn loose_gear(play: f64) -> Dynamics {
     for (i, x) in [0.0, 0.09].into_iter().enumerate() {
         scene.constraints.extend(hinge(i, DVec3::X * x, DVec3::ZERO));
     }
-    let term = |body, coefficient| Term { measure: turn(body), coefficient };
+    let term = |body, coefficient| Term { measure: angle_about_z(body), coefficient };
     let kind = LimitKind::Play { terms: [term(0, 0.06), term(1, 0.03)], play };
     scene.limits = vec![Limit { name: "mesh".into(), kind, restitution: 0.0 }];
     scene.dynamics()
@@ -148,7 +148,7 @@ fn slack(dynamics: &Dynamics) -> f64 {
 }
 
 #[test]
-fn loose_teeth_meet_flank_by_flank_and_lose_what_the_hit_takes() {
+fn loose_teeth_meet_flank_by_flank_and_lose_the_impact_s_energy() {
     const PLAY: f64 = 2e-3;
     let (i1, i2, r1, r2) = (2e-4, 1e-4, 0.06, 0.03);
     let mut dynamics = loose_gear(PLAY);
@@ -185,7 +185,7 @@ fn loose_teeth_meet_flank_by_flank_and_lose_what_the_hit_takes() {
     let ratio = dynamics.bodies[1].angular_velocity.z / dynamics.bodies[0].angular_velocity.z;
     assert!((ratio + 2.0).abs() < 1e-6, "{ratio}");
     let (back, range) = drive(&mut dynamics, -1e-3, 240);
-    assert!(back.iter().any(|hit| hit.kind != ImpactKind::Impact), "{back:?}");
+    assert!(back.iter().any(|impact| impact.kind != ImpactKind::Impact), "{back:?}");
     assert!(range.0 > -0.5 * PLAY - 1e-5 && range.0 < -0.5 * PLAY + 1e-5 && range.1 < 0.5 * PLAY + 1e-5, "{range:?}");
     // I₁ ω₁ − I₂ ω₂ r₁/r₂ grows by the torque's impulse alone, on whatever flank.
     let momentum = |d: &Dynamics| i1 * d.bodies[0].angular_velocity.z - 2.0 * i2 * d.bodies[1].angular_velocity.z;
@@ -196,7 +196,7 @@ fn loose_teeth_meet_flank_by_flank_and_lose_what_the_hit_takes() {
 }
 
 #[test]
-fn each_constraint_gathers_at_its_own_pace() {
+fn each_constraint_closes_with_its_own_time_constant() {
     // Critically damped: C = C₀ (1 + t/τ) exp(−t/τ).
     const PACE: f64 = 1e-4;
     let mut scene = Scene::new(vec![ball(0.1, 0.01, DVec3::X * 0.2), ball(0.1, 0.01, DVec3::Z * 0.2)], Vec::new());

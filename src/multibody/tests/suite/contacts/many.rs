@@ -1,9 +1,9 @@
-//! Many things that touch: floors that bear them all, towers, heaps.
+//! Many contacts: full floors, towers, heaps.
 
 use super::*;
 use soffio_math::noise::Random;
 
-/// What lies on something sinks and drifts by no more than this, m.
+/// Resting bodies sink and drift by no more than this, m.
 const DRIFT: f64 = 1e-4;
 
 fn boxes(half: f64, places: impl Iterator<Item = DVec3>) -> Scene {
@@ -35,7 +35,7 @@ fn a_floor_bears_a_hundred_boxes() {
     let before = dynamics.bodies.clone();
     run(&mut dynamics, 5.0);
     assert!(drift(&dynamics, &before) < DRIFT, "{} m", drift(&dynamics, &before));
-    assert!((0..100).all(|body| dynamics.is_asleep(body)), "what lies on a floor sleeps");
+    assert!((0..100).all(|body| dynamics.is_asleep(body)), "boxes on a floor sleep");
 }
 
 #[test]
@@ -50,19 +50,19 @@ fn a_tower_of_ten_boxes_stands_and_sleeps() {
 
 #[test]
 fn a_tower_of_twenty_put_exactly_on_each_other_stays_where_it_is() {
-    /// m: it has nowhere to fall, and what the solver leaves over is less than the touching layer.
+    /// m: it has nowhere to fall, and the solver's error is less than the contact layer.
     const STAYS: f64 = 1e-5;
     let scene = boxes(0.05, (0..20).map(|i| DVec3::Y * (0.05 + 0.1 * f64::from(i))));
     let mut dynamics = scene.dynamics();
     let before = dynamics.bodies.clone();
-    let (still, mut impacts) = (vec![[0.0; 6]; 20], Vec::new());
+    let (no_wrenches, mut impacts) = (vec![[0.0; 6]; 20], Vec::new());
     for step in 0..1200 {
-        dynamics.step(DT, &still, &mut impacts);
-        let way = drift(&dynamics, &before);
-        assert!(way < STAYS, "step {step}: {way} m");
+        dynamics.step(DT, &no_wrenches, &mut impacts);
+        let displacement = drift(&dynamics, &before);
+        assert!(displacement < STAYS, "step {step}: {displacement} m");
     }
     assert!((0..20).all(|body| dynamics.is_asleep(body)), "it sleeps after five seconds");
-    assert!(impacts.is_empty(), "what touches from the beginning does not hit");
+    assert!(impacts.is_empty(), "contacts from the beginning are no impacts");
 }
 
 /// Boxes that fall on each other from a column.
@@ -79,14 +79,14 @@ fn heap(count: usize) -> Scene {
 
 #[test]
 fn a_heap_comes_to_rest_and_gains_no_energy() {
-    /// Share of the energy that the boxes fall with: moving what overlaps apart lifts it.
+    /// Fraction of the energy of the fall: moving overlapping bodies apart lifts them.
     const GAIN: f64 = 1e-2;
     let scene = heap(20);
     let mut dynamics = scene.dynamics();
-    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     let (start, mut least, mut gain, mut impacts) = (dynamics.energy(), f64::INFINITY, 0.0, Vec::new());
     for _ in 0..1200 {
-        assert_eq!(dynamics.step(DT, &still, &mut impacts), None);
+        assert_eq!(dynamics.step(DT, &no_wrenches, &mut impacts), None);
         gain = f64::max(gain, dynamics.energy() - least);
         least = least.min(dynamics.energy());
     }
@@ -98,16 +98,16 @@ fn a_heap_comes_to_rest_and_gains_no_energy() {
 
 #[test]
 fn a_heap_that_is_too_much_for_a_step_comes_to_rest_and_sleeps() {
-    /// Operations of a step that no longer follows each impact.
-    const HURRIED: u64 = 3_000_000;
+    /// Operations of a step that changes to time stepping.
+    const BUDGET: u64 = 3_000_000;
     let mut dynamics = heap(50).dynamics();
-    let (still, mut impacts) = (vec![[0.0; 6]; 50], Vec::new());
+    let (no_wrenches, mut impacts) = (vec![[0.0; 6]; 50], Vec::new());
     let mut most = 0;
     for _ in 0..2400 {
-        assert_eq!(dynamics.step(DT, &still, &mut impacts), None);
+        assert_eq!(dynamics.step(DT, &no_wrenches, &mut impacts), None);
         most = most.max(dynamics.operations());
     }
-    assert!(most > HURRIED, "{most} operations are none too many");
+    assert!(most > BUDGET, "{most} operations are none too many");
     let awake = (0..50).filter(|&body| !dynamics.is_asleep(body)).count();
     assert_eq!(awake, 0, "all sleep after ten seconds");
 }

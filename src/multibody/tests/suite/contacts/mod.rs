@@ -1,4 +1,4 @@
-//! Contacts against formulas: rest, sliding, rolling, hits of several points, limits.
+//! Contacts against formulas: resting, sliding, rolling, impacts at several points, limits.
 
 mod asleep;
 mod loaded;
@@ -16,9 +16,10 @@ use soffio_multibody::dynamics::{
 
 const G: f64 = 9.81;
 const DT: f64 = 1.0 / 240.0;
-/// What rests stays: a minute's way and the speed at its end.
+/// Resting bodies move by no more than this in a minute, m.
 const STAYS: f64 = 1e-6;
-const STILL: f64 = 1e-5;
+/// And are no faster than this at its end, m/s.
+const STILL_SPEED: f64 = 1e-5;
 
 fn settings() -> Settings {
     Settings {
@@ -99,7 +100,7 @@ impl Scene {
                 resistance: RollingResistance::default(),
             })
             .collect();
-        let figure = Articulation {
+        let articulation = Articulation {
             bodies: self.bodies.clone(),
             damping: vec![Damping { linear: self.damping, angular: self.damping }; self.bodies.len()],
             constraints: &self.constraints,
@@ -109,15 +110,15 @@ impl Scene {
             colliders: &self.colliders,
             pairs: surfaces,
         };
-        Dynamics::new(figure, Settings { gravity: self.gravity, ..settings() })
+        Dynamics::new(articulation, Settings { gravity: self.gravity, ..settings() })
     }
 }
 
 fn run(dynamics: &mut Dynamics, seconds: f64) -> Vec<Impact> {
-    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     let mut impacts = Vec::new();
     for _ in 0..(seconds / DT).round() as usize {
-        assert_eq!(dynamics.step(DT, &still, &mut impacts), None, "bad numbers");
+        assert_eq!(dynamics.step(DT, &no_wrenches, &mut impacts), None, "bad numbers");
     }
     impacts
 }
@@ -130,13 +131,13 @@ fn assert_stays(dynamics: &mut Dynamics, seconds: f64) {
     let each = began.elapsed().as_secs_f64() * DT / seconds * 1e6;
     let mut worst: (f64, f64) = (0.0, 0.0);
     for (now, then) in dynamics.bodies.iter().zip(&before) {
-        let turn = now.rotation.angle_between(then.rotation);
-        worst.0 = worst.0.max(now.position.distance(then.position)).max(0.1 * turn);
+        let angle = now.rotation.angle_between(then.rotation);
+        worst.0 = worst.0.max(now.position.distance(then.position)).max(0.1 * angle);
         worst.1 = worst.1.max(now.velocity.length()).max(0.1 * now.angular_velocity.length());
     }
     println!("stayed within {:e} m, {:e} m/s; {each:.1} µs a step", worst.0, worst.1);
     assert!(impacts.is_empty(), "{impacts:?}");
-    assert!(worst.0 < STAYS && worst.1 < STILL, "moved by {} m, {} m/s", worst.0, worst.1);
+    assert!(worst.0 < STAYS && worst.1 < STILL_SPEED, "moved by {} m, {} m/s", worst.0, worst.1);
 }
 
 /// Gravity as it is seen from an incline of this angle, which falls towards +x.
@@ -163,10 +164,10 @@ fn a_ball_rolls_down_an_incline_at_five_sevenths() {
     let expected = 5.0 / 7.0 * G * angle.sin();
     assert!((found / expected - 1.0).abs() < RATE, "{found} m/s² against {expected}");
     assert!((ball.velocity.x + r * ball.angular_velocity.z).abs() < RATE * ball.velocity.x, "it slips");
-    let touch = dynamics.contact_reports().next().expect("it rolls on the plane");
-    assert!(touch.slip.length() < RATE * ball.velocity.x, "{touch:?}");
-    for roll in touch.roll {
-        assert!((roll.length() / ball.velocity.x - 1.0).abs() < 1e-2, "{touch:?} at {} m/s", ball.velocity.x);
+    let report = dynamics.contact_reports().next().expect("it rolls on the plane");
+    assert!(report.slip.length() < RATE * ball.velocity.x, "{report:?}");
+    for roll in report.roll {
+        assert!((roll.length() / ball.velocity.x - 1.0).abs() < 1e-2, "{report:?} at {} m/s", ball.velocity.x);
     }
     assert!((ball.position.y - r).abs() < 3e-6, "off the plane by {}", ball.position.y - r);
 }
@@ -220,14 +221,14 @@ fn a_block_sticks_below_the_angle_of_friction_and_slides_above() {
     let expected = G * (angle.sin() - mu * angle.cos());
     assert!((found / expected - 1.0).abs() < RATE, "{found} against {expected} m/s²");
     // All its corners together bear its weight, each slides as fast as it does, and none moves over the block itself.
-    let contact_reports: Vec<_> = slides.contact_reports().collect();
-    let pressed: f64 = contact_reports.iter().map(|t| t.normal_force).sum();
+    let reports: Vec<_> = slides.contact_reports().collect();
+    let pressed: f64 = reports.iter().map(|t| t.normal_force).sum();
     assert!((pressed / (0.3 * G * angle.cos()) - 1.0).abs() < RATE, "{pressed} N");
     let speed = slides.bodies[0].velocity.x;
-    for touch in contact_reports {
-        assert!((touch.slip.length() / speed - 1.0).abs() < RATE, "{touch:?} at {speed} m/s");
-        let scraped = touch.roll.map(|roll| roll.length() / speed);
-        assert!(scraped[0].min(scraped[1]) < 1e-3 && (scraped[0].max(scraped[1]) - 1.0).abs() < 1e-3, "{touch:?}");
+    for report in reports {
+        assert!((report.slip.length() / speed - 1.0).abs() < RATE, "{report:?} at {speed} m/s");
+        let scraped = report.roll.map(|roll| roll.length() / speed);
+        assert!(scraped[0].min(scraped[1]) < 1e-3 && (scraped[0].max(scraped[1]) - 1.0).abs() < 1e-3, "{report:?}");
     }
 }
 
@@ -262,7 +263,7 @@ fn a_light_box_under_a_heavy_one_holds() {
 
 #[test]
 fn a_ring_rests_on_a_hook_and_a_ball_in_a_cup() {
-    // Ring of twelve rods about a peg along z, hung a little aside; and a ball among three pegs.
+    // Ring of twelve rods about a peg along z, a little aside; and a ball among three pegs.
     let (r, n) = (0.02, 12);
     let corner = |i: usize| rotation(DVec3::Z * (2.0 * PI * i as f64 / n as f64)) * DVec3::Y * r;
     let mut ring = body(0.02, DVec3::new(2e-6, 2e-6, 4e-6), DVec3::Y * (0.5 - r + 0.0015));
@@ -292,25 +293,25 @@ fn a_box_that_lands_flat_does_not_spin() {
     let mut scene = Scene::new(vec![cube(0.2, half, DVec3::Y * 0.1)], vec![block(0, half), floor()]);
     scene.restitution = 0.5;
     let mut dynamics = scene.dynamics();
-    let still = vec![[0.0; 6]];
+    let no_wrenches = vec![[0.0; 6]];
     let mut impacts: Vec<Impact> = Vec::new();
     while impacts.is_empty() {
-        dynamics.step(DT, &still, &mut impacts);
+        dynamics.step(DT, &no_wrenches, &mut impacts);
     }
-    let hit = impacts[0];
+    let impact = impacts[0];
     let landed = dynamics.bodies[0];
     let speed = (2.0 * G * (0.1 - half.y)).sqrt();
-    assert!((hit.speed / speed - 1.0).abs() < 1e-4, "{} against {speed} m/s", hit.speed);
-    assert!((hit.impulse / (1.5 * 0.2 * hit.speed) - 1.0).abs() < 1e-6, "{} N s", hit.impulse);
+    assert!((impact.speed / speed - 1.0).abs() < 1e-4, "{} against {speed} m/s", impact.speed);
+    assert!((impact.impulse / (1.5 * 0.2 * impact.speed) - 1.0).abs() < 1e-6, "{} N s", impact.impulse);
     assert!(landed.angular_velocity.length() < FLAT, "spins at {}", landed.angular_velocity);
-    let expected = 0.5 * hit.speed - G * (DT - hit.time);
+    let expected = 0.5 * impact.speed - G * (DT - impact.time);
     assert!((landed.velocity.y - expected).abs() < 1e-6, "{} against {expected} m/s", landed.velocity.y);
-    assert_eq!(impacts.len(), 1, "one landing is one hit");
+    assert_eq!(impacts.len(), 1, "one landing is one impact");
 }
 
 #[test]
 fn of_a_cradle_of_balls_as_many_leave_as_come() {
-    // Equal balls that touch, e = 1: hits pass from ball to ball (Newton's cradle). Those left in touch find their
+    // Equal balls in contact, e = 1: impacts pass from ball to ball (Newton's cradle). Those left in touch find their
     // place in the touching layer at micrometres in hundredths of a second.
     const PASSED: f64 = 1e-4;
     let r = 0.02;
@@ -332,7 +333,7 @@ fn of_a_cradle_of_balls_as_many_leave_as_come() {
 }
 
 #[test]
-fn nothing_goes_bad_between_walls_that_close() {
+fn numbers_stay_finite_between_closing_walls() {
     // A ball of a gram between blocks of a tonne; then one that overlaps both of two fixed walls.
     let half = DVec3::new(0.1, 0.1, 0.1);
     let mut left = cube(1e3, half, DVec3::X * -0.2);
@@ -363,18 +364,18 @@ fn a_warm_step_allocates_nothing() {
     let mut colliders: Vec<_> = (0..3).map(|i| block(i, half)).collect();
     colliders.extend([sphere(3, 0.02), floor()]);
     let mut dynamics = Scene::new(bodies, colliders).dynamics();
-    let still = vec![[0.0; 6]; 4];
+    let no_wrenches = vec![[0.0; 6]; 4];
     let mut impacts = Vec::with_capacity(10_000);
     for _ in 0..24 {
-        dynamics.step(DT, &still, &mut impacts);
+        dynamics.step(DT, &no_wrenches, &mut impacts);
     }
     let before = impacts.len();
     assert_no_alloc(|| {
         for _ in 0..480 {
-            dynamics.step(DT, &still, &mut impacts);
+            dynamics.step(DT, &no_wrenches, &mut impacts);
         }
     });
-    assert!(impacts.len() > before, "nothing was hit");
+    assert!(impacts.len() > before, "there was no impact");
 }
 
 fn anchor(body: Option<usize>, point: DVec3) -> Anchor {
@@ -392,7 +393,7 @@ fn hinge(body: usize, at: DVec3, local: DVec3) -> Vec<Constraint> {
     ]
 }
 
-fn turn(body: usize) -> Measure {
+fn angle_about_z(body: usize) -> Measure {
     Measure::Angle { axis: Axis { body: Some(body), direction: DVec3::Z }, frame: None }
 }
 
@@ -404,7 +405,7 @@ fn a_hinge_stops_at_its_range_bounces_and_rests_there() {
     let rod = body(0.1, DVec3::new(1e-6, 1.0, 1.0) * (0.1 * l * l / 12.0), DVec3::X * 0.5 * l);
     let mut scene = Scene::new(vec![rod], Vec::new());
     scene.constraints = hinge(0, DVec3::ZERO, DVec3::X * -0.5 * l);
-    let kind = LimitKind::Range { measure: turn(0), min: -0.5, max: f64::INFINITY };
+    let kind = LimitKind::Range { measure: angle_about_z(0), min: -0.5, max: f64::INFINITY };
     scene.limits = vec![Limit { name: "stop".into(), kind, restitution: 0.4 }];
     let mut dynamics = scene.dynamics();
     let impacts = run(&mut dynamics, 4.0);
@@ -438,7 +439,7 @@ fn a_cord_goes_taut_and_holds() {
     }
     assert!((longest - 0.2).abs() < LENGTH, "{longest} m");
     let lost = (energy - dynamics.energy()) / (0.1 * G * 0.01);
-    // A cord's pull stands still for a substep: second order, as its turn is foreseen.
+    // A cord's force is constant over a substep: second order, because its rotation is extrapolated.
     assert!(lost.abs() < 5e-3, "the taut cord lost or gave {lost} of the swing");
 }
 
@@ -448,7 +449,7 @@ fn a_ratchet_falls_back_to_the_last_tooth_and_no_farther() {
     scene.gravity = DVec3::ZERO;
     scene.constraints = hinge(0, DVec3::ZERO, DVec3::ZERO);
     let pitch = 2.0 * PI / 24.0;
-    let kind = LimitKind::Ratchet { measure: turn(0), pitch };
+    let kind = LimitKind::Ratchet { measure: angle_about_z(0), pitch };
     scene.limits = vec![Limit { name: "pawl".into(), kind, restitution: 0.2 }];
     let mut dynamics = scene.dynamics();
     let mut impacts = Vec::new();
@@ -462,11 +463,11 @@ fn a_ratchet_falls_back_to_the_last_tooth_and_no_farther() {
     let forward = push(&mut dynamics, 2e-4, 3.0);
     let turned: f64 = 0.5 * 2.0 * 3.0 * 3.0;
     assert!((forward - turned + 2.0 * PI).rem_euclid(2.0 * PI) < 1e-3, "{forward}");
-    let held = push(&mut dynamics, -2e-4, 8.0);
-    let teeth = held / pitch;
+    let stopped = push(&mut dynamics, -2e-4, 8.0);
+    let teeth = stopped / pitch;
     assert!((teeth - teeth.round()).abs() < 1e-4, "held at {teeth} teeth");
     // Pushed back at 6 rad/s it went on for as long again: 18 rad, and back by less than a tooth.
-    let fell = (2.0 * turned - held).rem_euclid(2.0 * PI);
+    let fell = (2.0 * turned - stopped).rem_euclid(2.0 * PI);
     assert!(fell < pitch + 1e-3, "fell back by {fell} rad");
-    assert!(dynamics.bodies[0].angular_velocity.length() < STILL);
+    assert!(dynamics.bodies[0].angular_velocity.length() < STILL_SPEED);
 }

@@ -24,7 +24,7 @@ impl World {
         self.add(name, ConstraintKind::Coupling { terms });
     }
 
-    fn way(&self, body: usize, direction: DVec3) -> Measure {
+    fn displacement(&self, body: usize, direction: DVec3) -> Measure {
         let point = self.anchor(Some(body), self.bodies[body].position);
         Measure::Way { point, direction: self.axis(None, direction) }
     }
@@ -40,7 +40,7 @@ fn wheels(inertias: &[f64]) -> World {
     world
 }
 
-fn turn(torque: f64) -> [f64; 6] {
+fn torque_about_z(torque: f64) -> [f64; 6] {
     [0.0, 0.0, 0.0, 0.0, 0.0, torque]
 }
 
@@ -53,7 +53,7 @@ fn a_pair_of_gears_shares_a_torque_by_its_ratio() {
         world.couple("gears", &[(Some(0), None, r1), (Some(1), None, r2)]);
         let mut dynamics = world.start(integrator);
         for _ in 0..240 {
-            step(&mut dynamics, DT, &[turn(torque), [0.0; 6]]);
+            step(&mut dynamics, DT, &[torque_about_z(torque), [0.0; 6]]);
         }
         let alpha = torque / (j1 + j2 * (r1 / r2) * (r1 / r2));
         let off = dynamics.bodies[0].angular_velocity.z - alpha;
@@ -121,17 +121,17 @@ fn a_planetary_gear_reduces_by_its_teeth() {
         world.couple("outside", &[(Some(2), Some(1), p), (None, Some(1), -r)]);
         let mut dynamics = world.start(integrator);
         for _ in 0..240 {
-            step(&mut dynamics, DT, &[turn(torque), [0.0; 6], [0.0; 6]]);
+            step(&mut dynamics, DT, &[torque_about_z(torque), [0.0; 6], [0.0; 6]]);
         }
         let carrier = s / (s + r);
         let planet = carrier - s / p * (1.0 - carrier);
         let inertia = js + (jc + mp * 0.01) * carrier * carrier + jp * planet * planet;
         let expected = torque / inertia;
         let rates = [0, 1, 2].map(|i| dynamics.bodies[i].angular_velocity.z);
-        for (found, share) in rates.into_iter().zip([1.0, carrier, planet]) {
+        for (found, ratio) in rates.into_iter().zip([1.0, carrier, planet]) {
             // The planet's axle bends: centripetal force is no polynomial of time, so more than rounding is left.
             let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-8 };
-            let error = (found - share * expected).abs();
+            let error = (found - ratio * expected).abs();
             assert!(error < allowed * expected.abs(), "{integrator:?}: {rates:?}, off by {error:e}");
         }
         assert!(dynamics.joint_error() < CLOSED);
@@ -149,9 +149,9 @@ fn a_ring_of_gears_turns_though_one_mesh_repeats_the_others() {
             world.couple(&format!("mesh-{i}"), &[(Some(i), None, teeth[i]), (Some(next), None, teeth[next])]);
         }
         let mut dynamics = world.start(integrator);
-        let still = [turn(torque), [0.0; 6], [0.0; 6], [0.0; 6]];
+        let wrenches = [torque_about_z(torque), [0.0; 6], [0.0; 6], [0.0; 6]];
         for _ in 0..240 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &wrenches);
         }
         assert_eq!(dynamics.system().redundant_rows().len(), 1);
         let inertia: f64 = teeth.iter().map(|z| j * (teeth[0] / z) * (teeth[0] / z)).sum();
@@ -170,7 +170,7 @@ fn a_weight_on_a_drum_falls_with_its_share_of_g() {
         world.bodies.push(body(m, DVec3::splat(1e-4), DVec3::new(r, -0.5, 0.0)));
         let drum = Measure::Angle { axis: world.axis(Some(0), DVec3::Z), frame: None };
         let terms = vec![
-            Term { measure: world.way(1, DVec3::NEG_Y), coefficient: 1.0 },
+            Term { measure: world.displacement(1, DVec3::NEG_Y), coefficient: 1.0 },
             Term { measure: drum, coefficient: -r },
         ];
         world.add("cord", ConstraintKind::Coupling { terms });
@@ -195,7 +195,7 @@ fn a_compound_pulley_halves_the_way() {
         let stone = |m, x| body(m, DVec3::splat(1e-4), DVec3::X * x);
         let mut world = World::new(vec![stone(m1, 0.0), stone(m2, 0.2)]);
         let terms = [(0, 1.0), (1, 2.0)]
-            .map(|(body, coefficient)| Term { measure: world.way(body, DVec3::NEG_Y), coefficient })
+            .map(|(body, coefficient)| Term { measure: world.displacement(body, DVec3::NEG_Y), coefficient })
             .to_vec();
         world.add("cord", ConstraintKind::Coupling { terms });
         let mut dynamics = world.start(integrator);
@@ -257,10 +257,10 @@ fn running(integrator: Integrator, turns: f64, rate: f64, dt: f64) -> f64 {
     // By tooth numbers: radii of 6 and 30 mm are not one to five in binary, and differ by a picometre after such a way.
     world.couple("gears", &[(Some(0), None, z1), (Some(1), None, z2)]);
     let mut dynamics = world.start(integrator);
-    let still = [[0.0; 6]; 2];
+    let no_wrenches = [[0.0; 6]; 2];
     let mut worst = 0.0_f64;
     for _ in 0..(turns * 2.0 * PI / rate / dt).round() as usize {
-        step(&mut dynamics, dt, &still);
+        step(&mut dynamics, dt, &no_wrenches);
         // Wrapped, so that no count of turns can hide what the rotations say.
         let angle = |i: usize| 2.0 * dynamics.bodies[i].rotation.z.atan2(dynamics.bodies[i].rotation.w);
         let teeth = (z1 * angle(0) + z2 * angle(1)) / (2.0 * PI);

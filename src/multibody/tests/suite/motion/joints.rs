@@ -22,7 +22,7 @@ fn a_bead_slides_down_a_plane_with_g_sine() {
         let along = DVec3::NEG_Y * G - normal * (DVec3::NEG_Y * G).dot(normal);
         let off = dynamics.bodies[0].position - world.bodies[0].position - 0.5 * along;
         assert!(off.length() < ROUNDING, "{integrator:?}: off by {off}");
-        // What presses it on the plane is m g cos.
+        // Its normal force is m g cos.
         let (force, _) = dynamics.system().carried(0);
         assert!((force - 0.2 * G * normal.y).abs() < ROUNDING);
     }
@@ -106,11 +106,11 @@ fn a_bead_on_a_turning_wire_is_thrown_out_by_the_hyperbolic_cosine() {
 
 #[test]
 fn a_weld_makes_one_body_of_two() {
-    let turn = DMat3::from_quat(rotation(DVec3::new(0.2, 0.5, -0.4)));
+    let orientation = DMat3::from_quat(rotation(DVec3::new(0.2, 0.5, -0.4)));
     let part = |mass, center, moments: DVec3| MassProperties {
         mass,
         center,
-        inertia: turn * DMat3::from_diagonal(moments) * turn.transpose(),
+        inertia: orientation * DMat3::from_diagonal(moments) * orientation.transpose(),
     };
     let a = part(0.5, DVec3::new(0.1, 0.0, 0.05), DVec3::new(2e-3, 3e-3, 4e-3));
     let b = part(0.8, DVec3::new(-0.15, 0.1, 0.0), DVec3::new(5e-3, 1e-3, 5e-3));
@@ -159,10 +159,10 @@ fn a_universal_joint_turns_its_output_unevenly() {
         world.across("cross", 0, DVec3::Y, Some(1), DVec3::Z);
         let mut dynamics = world.start(integrator);
         let energy = dynamics.energy();
-        let still = [[0.0; 6]; 2];
+        let no_wrenches = [[0.0; 6]; 2];
         let (mut slowest, mut fastest) = (f64::INFINITY, 0.0_f64);
         for _ in 0..480 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &no_wrenches);
             let [input, output] = [dynamics.bodies[0], dynamics.bodies[1]];
             let pin = input.rotation * DVec3::Y;
             let phi = pin.z.atan2(pin.y);
@@ -195,12 +195,12 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
         world.across("windmill/across-1", 0, DVec3::Z, Some(1), DVec3::X);
         world.across("windmill/across-2", 0, DVec3::Z, Some(1), DVec3::Y);
         let mut dynamics = world.start(integrator);
-        let still = [[0.0; 6]; 2];
+        let no_wrenches = [[0.0; 6]; 2];
         let mut turned = 0.0;
         // The directions that bear the torque turn with the mast: the fourth order leaves (Ωh)⁵ a step.
         let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-8 };
         for _ in 0..480 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &no_wrenches);
             turned += yaw * DT;
             let axle = rotation(DVec3::Y * turned) * DVec3::Z;
             let sails = &dynamics.bodies[0];
@@ -224,7 +224,7 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
 }
 
 #[test]
-fn what_follows_a_function_follows_it_and_bears_its_acceleration() {
+fn bodies_follow_a_function_and_bear_its_acceleration() {
     let wave = Function::Wave { mean: 0.1, amplitude: 0.4, period: 0.9, phase: 0.3 };
     let keys = vec![(0.0, 0.0), (0.5, 0.3), (1.1, -0.2), (1.6, 0.1), (3.0, 0.0)];
     let spline = Function::Keys { keys, interpolation: Interpolation::Spline, repeat: false };
@@ -250,9 +250,9 @@ fn what_follows_a_function_follows_it_and_bears_its_acceleration() {
         };
         world.add("height", kind);
         let mut dynamics = world.start(integrator);
-        let still = [[0.0; 6]; 2];
+        let no_wrenches = [[0.0; 6]; 2];
         for index in 0..480 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &no_wrenches);
             let now = function.at(f64::from(index + 1) * DT);
             let (wheel, stone) = (&dynamics.bodies[0], &dynamics.bodies[1]);
             let mark = wheel.rotation * DVec3::X;
@@ -271,13 +271,13 @@ fn what_follows_a_function_follows_it_and_bears_its_acceleration() {
 }
 
 #[test]
-fn bodies_are_where_their_keys_say_and_what_hangs_on_them_feels_it() {
+fn bodies_are_where_their_keys_say_and_hanging_bodies_feel_it() {
     // A table that is lifted, turned and shaken: a block in a corner of it goes along, welded.
     let keys: Vec<(f64, Pose)> = (0..7)
         .map(|i| {
             let t = 0.5 * f64::from(i);
-            let turn = rotation(DVec3::new(0.3 * t, (2.0 * t).sin(), 0.5));
-            (t, Pose { rotation: turn, position: DVec3::new(t.sin(), 0.2 * t * t, (3.0 * t).cos()) })
+            let orientation = rotation(DVec3::new(0.3 * t, (2.0 * t).sin(), 0.5));
+            (t, Pose { rotation: orientation, position: DVec3::new(t.sin(), 0.2 * t * t, (3.0 * t).cos()) })
         })
         .collect();
     for (integrator, interpolation) in
@@ -293,9 +293,9 @@ fn bodies_are_where_their_keys_say_and_what_hangs_on_them_feels_it() {
         world.fix_turn("weld", 0, Some(1));
         world.kinematic_bodies.push(KinematicBody { body: 1, motion: motion.clone() });
         let mut dynamics = world.start(integrator);
-        let still = [[0.0; 6]; 2];
+        let no_wrenches = [[0.0; 6]; 2];
         for index in 0..690 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &no_wrenches);
             let now = motion.at(f64::from(index + 1) * DT);
             let arm = now.pose.vector(DVec3::new(0.3, 0.1, -0.2));
             let block = &dynamics.bodies[0];

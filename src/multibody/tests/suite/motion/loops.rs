@@ -1,4 +1,4 @@
-//! Closed loops: a four-bar linkage, a chain between two walls; and figures that put themselves together.
+//! Closed loops: a four-bar linkage, a chain between two walls, and scattered linkages that close their joints.
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_math::noise::Random;
@@ -26,18 +26,18 @@ fn a_four_bar_linkage_keeps_its_energy_and_its_pins() {
         world.solver = solver;
         let mut dynamics = world.start(integrator);
         let energy = dynamics.energy();
-        let still = [[0.0; 6]; 3];
-        let (mut lost, mut apart, mut moved) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let no_wrenches = [[0.0; 6]; 3];
+        let (mut lost, mut apart, mut scale) = (0.0_f64, 0.0_f64, 0.0_f64);
         for _ in 0..720 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &no_wrenches);
             lost = lost.max((dynamics.energy() - energy).abs());
             apart = apart.max(dynamics.joint_error());
-            moved = moved.max(dynamics.bodies[0].kinetic_energy() + dynamics.bodies[2].kinetic_energy());
+            scale = scale.max(dynamics.bodies[0].kinetic_energy() + dynamics.bodies[2].kinetic_energy());
             assert!(dynamics.bodies.iter().all(|b| (b.rotation * DVec3::Z).dot(DVec3::Z) > 1.0 - 1e-14));
         }
         // Four hinges of five rows hold seventeen of eighteen freedoms.
         assert_eq!(dynamics.system().redundant_rows().len(), 3, "{solver:?}");
-        let lost = lost / moved;
+        let lost = lost / scale;
         println!("four-bar, {integrator:?}, {solver:?}: energy off by {lost:.1e}, pins by {apart:.1e} m");
         let allowed = if integrator == Integrator::Precise { 1e-8 } else { 1e-4 };
         assert!(lost < allowed, "{integrator:?}, {solver:?}: energy off by {lost:e}");
@@ -101,16 +101,16 @@ fn ladders_and_nets_stay_closed_and_keep_their_energy() {
     for (name, world) in [("ladder", ladder(20)), ("net", net(5))] {
         let mut dynamics = world.start(Integrator::Auto);
         let energy = dynamics.energy();
-        let still = vec![[0.0; 6]; world.bodies.len()];
-        let (mut lost, mut apart, mut moved) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let no_wrenches = vec![[0.0; 6]; world.bodies.len()];
+        let (mut lost, mut apart, mut scale) = (0.0_f64, 0.0_f64, 0.0_f64);
         for _ in 0..240 {
-            assert_no_alloc(|| step(&mut dynamics, DT, &still));
+            assert_no_alloc(|| step(&mut dynamics, DT, &no_wrenches));
             lost = lost.max((dynamics.energy() - energy).abs());
             apart = apart.max(dynamics.joint_error());
-            moved = moved.max(dynamics.bodies.iter().map(|body| body.kinetic_energy()).sum());
+            scale = scale.max(dynamics.bodies.iter().map(|body| body.kinetic_energy()).sum());
         }
-        println!("{name}: energy off by {:.1e}, joints by {apart:.1e} m", lost / moved);
-        assert!(lost < KEPT * moved, "{name}: energy off by {:e}", lost / moved);
+        println!("{name}: energy off by {:.1e}, joints by {apart:.1e} m", lost / scale);
+        assert!(lost < KEPT * scale, "{name}: energy off by {:e}", lost / scale);
         assert!(apart < CLOSED, "{name}: {apart:e} m apart");
         // Each loop of hinges in a plane has three rows too many, a net's rods have none.
         let expected = if name == "ladder" { 60 } else { 0 };
@@ -209,8 +209,8 @@ fn a_chain_hung_askew_comes_to_rest_as_a_catenary() {
     let side = DVec3::new(0.5 * span, -sag, 0.0) / (0.5 * LINKS as f64);
     let mut places = vec![DVec3::ZERO];
     for i in 0..LINKS {
-        let way = if i < LINKS / 2 { side } else { DVec3::new(side.x, -side.y, 0.0) };
-        places.push(places[i] + way);
+        let offset = if i < LINKS / 2 { side } else { DVec3::new(side.x, -side.y, 0.0) };
+        places.push(places[i] + offset);
     }
     let mut world = chain(&places);
     world.damping = Damping { linear: 8.0, angular: 8.0 };
@@ -234,7 +234,7 @@ fn a_chain_hung_askew_comes_to_rest_as_a_catenary() {
 }
 
 #[test]
-fn scattered_figures_put_themselves_together() {
+fn scattered_linkages_close_their_joints() {
     const TOGETHER: f64 = 1e-9;
     for seed in 0..6 {
         for (name, mut world) in [("linkage", four_bar()), ("chain", branches())] {
@@ -244,16 +244,16 @@ fn scattered_figures_put_themselves_together() {
             // What the stabiliser does not take back of its work would spin thin rods for ever.
             world.damping = Damping { linear: 3.0, angular: 3.0 };
             for body in &mut world.bodies {
-                let reach = if name == "linkage" { 0.1 } else { 0.5 };
-                body.position += reach * vector();
-                body.rotation = rotation(2.0 * reach * vector()) * body.rotation;
+                let spread = if name == "linkage" { 0.1 } else { 0.5 };
+                body.position += spread * vector();
+                body.rotation = rotation(2.0 * spread * vector()) * body.rotation;
             }
             let mut dynamics = world.start(Integrator::RungeKutta);
             let before = dynamics.joint_error();
-            let still = vec![[0.0; 6]; world.bodies.len()];
+            let no_wrenches = vec![[0.0; 6]; world.bodies.len()];
             let mut fastest = 0.0_f64;
             for _ in 0..720 {
-                step(&mut dynamics, DT, &still);
+                step(&mut dynamics, DT, &no_wrenches);
                 fastest = dynamics.bodies.iter().fold(fastest, |s, b| s.max(b.velocity.length()));
             }
             let after = dynamics.joint_error();

@@ -28,10 +28,10 @@ pub const OMEGA: f64 = 25.0;
 pub const INTEGRATORS: [Integrator; 2] = [Integrator::RungeKutta, Integrator::Precise];
 /// What an exact law leaves after some hundred steps of rounding, in m, rad, m/s and rad/s.
 pub const ROUNDING: f64 = 1e-11;
-/// Gap of a joint of a metre-sized figure: rounding of its coordinates.
+/// Gap of a joint of a metre-sized mechanism: rounding of its coordinates.
 pub const CLOSED: f64 = 1e-12;
 
-/// A figure and the world it moves in.
+/// An articulation and the world it moves in.
 #[derive(Clone)]
 pub struct World {
     pub bodies: Vec<RigidBody>,
@@ -58,7 +58,7 @@ impl World {
     }
 
     pub fn start(&self, integrator: Integrator) -> Dynamics {
-        let figure = Articulation {
+        let articulation = Articulation {
             bodies: self.bodies.clone(),
             damping: vec![self.damping; self.bodies.len()],
             constraints: &self.constraints,
@@ -68,7 +68,7 @@ impl World {
             colliders: &[],
             pairs: Vec::new(),
         };
-        Dynamics::new(figure, self.settings(integrator))
+        Dynamics::new(articulation, self.settings(integrator))
     }
 
     pub fn settings(&self, integrator: Integrator) -> Settings {
@@ -158,19 +158,19 @@ pub fn wheel(mass: f64, inertia: f64, position: DVec3) -> RigidBody {
 
 /// A thin rod between two places.
 pub fn rod(mass: f64, from: DVec3, to: DVec3) -> RigidBody {
-    let way = to - from;
-    let l = way.length();
+    let separation = to - from;
+    let l = separation.length();
     let across = mass * l * l / 12.0;
     let mut rod = body(mass, DVec3::new(across, 1e-3 * across, across), 0.5 * (from + to));
-    rod.rotation = DQuat::from_rotation_arc(DVec3::NEG_Y, way / l);
+    rod.rotation = DQuat::from_rotation_arc(DVec3::NEG_Y, separation / l);
     rod
 }
 
 /// Steps without external forces; what comes back is how long it took.
 pub fn run(dynamics: &mut Dynamics, seconds: f64, dt: f64) {
-    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     for _ in 0..(seconds / dt).round() as usize {
-        step(dynamics, dt, &still);
+        step(dynamics, dt, &no_wrenches);
     }
 }
 
@@ -211,11 +211,11 @@ pub fn elliptic_period(square: f64, angle: f64) -> f64 {
 /// Mean time from one upward zero of a coordinate to the next over `seconds`; the zeros are those of the cubics through
 /// its values and rates.
 pub fn period(dynamics: &mut Dynamics, seconds: f64, dt: f64, read: impl Fn(&Dynamics) -> (f64, f64)) -> f64 {
-    let still = vec![[0.0; 6]; dynamics.bodies.len()];
+    let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     let mut zeros = Vec::new();
     let mut before = read(dynamics);
     for index in 0..(seconds / dt).round() as usize {
-        step(dynamics, dt, &still);
+        step(dynamics, dt, &no_wrenches);
         let after = read(dynamics);
         if before.0 < 0.0 && after.0 >= 0.0 {
             let ((p, v), (q, w)) = (before, after);

@@ -159,9 +159,9 @@ fn a_point_goes_along_its_path_and_feels_what_that_takes() {
         world.pin("path", 0, Some(1), world.bodies[0].position);
         world.kinematic_bodies.push(KinematicBody { body: 1, motion: path.clone() });
         let mut dynamics = world.start(integrator);
-        let still = [[0.0; 6]; 2];
+        let no_wrenches = [[0.0; 6]; 2];
         for index in 0..1900 {
-            step(&mut dynamics, DT, &still);
+            step(&mut dynamics, DT, &no_wrenches);
             let now = path.at(f64::from(index + 1) * DT);
             assert!(dynamics.bodies[0].position.distance(now.pose.position) < CLOSED);
             assert!(dynamics.bodies[0].velocity.distance(now.velocity) < ROUNDING);
@@ -178,9 +178,9 @@ fn a_pendulum_in_a_turning_hinge_is_thrown_outwards() {
     // the nail. It rests at cos θ = 3g/(2 l k Ω²).
     let (l, omega) = (0.4, 9.0);
     let k = 1.0 - 1e-3 * 0.25;
-    let rest = (1.5 * G / (l * k * omega * omega)).acos();
+    let equilibrium = (1.5 * G / (l * k * omega * omega)).acos();
     for integrator in INTEGRATORS {
-        for (start, rests) in [(rest, true), (0.3, false)] {
+        for (start, at_equilibrium) in [(equilibrium, true), (0.3, false)] {
             let mut bob = hanging(l, start);
             let spin = DVec3::Y * omega;
             (bob.angular_velocity, bob.velocity) = (spin, spin.cross(bob.position));
@@ -193,7 +193,7 @@ fn a_pendulum_in_a_turning_hinge_is_thrown_outwards() {
             let found = r.x.hypot(r.z).atan2(-r.y);
             let rate =
                 |_: f64, y: &[f64]| vec![y[1], k * omega * omega * y[0].sin() * y[0].cos() - 1.5 * G / l * y[0].sin()];
-            let expected = if rests { rest } else { flow(&rate, &[start, 0.0], 2.0, 0.01)[0] };
+            let expected = if at_equilibrium { equilibrium } else { flow(&rate, &[start, 0.0], 2.0, 0.01)[0] };
             let error = (found - expected.abs()).abs();
             println!("turning hinge, {integrator:?}: off by {error:.1e} rad");
             assert!(error < 1e2 * followed(integrator), "{integrator:?}: {found} against {expected} rad");
@@ -204,18 +204,18 @@ fn a_pendulum_in_a_turning_hinge_is_thrown_outwards() {
 
 #[test]
 fn an_axis_of_the_world_is_no_body() {
-    // What holds against the world holds against a driven body that stands still.
+    // A joint to the world and one to a kinematic body at rest are the same.
     let mut world = World::new(vec![hanging(0.4, 0.5), body(1.0, DVec3::ONE, DVec3::ZERO)]);
-    let mut driven = world.clone();
+    let mut kinematic = world.clone();
     world.hinge("axle", 0, None, DVec3::ZERO, DVec3::Z);
-    driven.hinge("axle", 0, Some(1), DVec3::ZERO, DVec3::Z);
-    let still = vec![(0.0, Pose::IDENTITY)];
-    driven.kinematic_bodies.push(KinematicBody {
+    kinematic.hinge("axle", 0, Some(1), DVec3::ZERO, DVec3::Z);
+    let standing = vec![(0.0, Pose::IDENTITY)];
+    kinematic.kinematic_bodies.push(KinematicBody {
         body: 1,
-        motion: KeyframeMotion { keys: still, interpolation: Interpolation::Step, repeat: false },
+        motion: KeyframeMotion { keys: standing, interpolation: Interpolation::Step, repeat: false },
     });
     let mut ends = Vec::new();
-    for world in [world, driven] {
+    for world in [world, kinematic] {
         assert!(matches!(world.constraints[1].kind, ConstraintKind::Orientation { a: Axis { body: Some(0), .. }, .. }));
         let mut dynamics = world.start(Integrator::RungeKutta);
         run(&mut dynamics, 1.0, DT);

@@ -28,17 +28,17 @@ fn period_error(integrator: Integrator) -> f64 {
 
 #[test]
 fn a_slider_on_a_spring_keeps_two_pi_root_m_over_k() {
-    let (m, k, rest) = (0.3, 12.0, 0.5);
+    let (m, k, rest_length) = (0.3, 12.0, 0.5);
     let along = DVec3::new(0.6, 0.0, 0.8);
     for integrator in INTEGRATORS {
         let mut world = World::new(vec![body(m, DVec3::splat(1e-3), along * 0.6)]);
         world.slider("slider", 0, None, along);
         let (a, b) = (world.anchor(Some(0), world.bodies[0].position), world.anchor(None, DVec3::ZERO));
-        world.springs.push(Spring { rest: rest.into(), ..spring(SpringKind::Linear { a, b }, k, 0.0) });
+        world.springs.push(Spring { rest: rest_length.into(), ..spring(SpringKind::Linear { a, b }, k, 0.0) });
         let mut dynamics = world.start(integrator);
         let energy = dynamics.energy();
         let found = period(&mut dynamics, 10.0, DT, |d| {
-            (d.bodies[0].position.dot(along) - rest, d.bodies[0].velocity.dot(along))
+            (d.bodies[0].position.dot(along) - rest_length, d.bodies[0].velocity.dot(along))
         });
         let error = (found / (2.0 * PI * (m / k).sqrt()) - 1.0).abs();
         println!("slider, {integrator:?}: period off by {error:.1e}");
@@ -82,8 +82,8 @@ fn a_wheel_on_a_torsion_spring_keeps_its_period_through_whole_turns() {
         world.bodies[0].angular_velocity = DVec3::Z;
         let mut dynamics = world.start(integrator);
         let read = |d: &soffio_multibody::dynamics::Dynamics| {
-            let turn = d.bodies[1].rotation.conjugate() * d.bodies[0].rotation;
-            (2.0 * turn.z.atan2(turn.w), d.bodies[0].angular_velocity.z - d.bodies[1].angular_velocity.z)
+            let relative = d.bodies[1].rotation.conjugate() * d.bodies[0].rotation;
+            (2.0 * relative.z.atan2(relative.w), d.bodies[0].angular_velocity.z - d.bodies[1].angular_velocity.z)
         };
         let found = period(&mut dynamics, 8.0, DT, read);
         let error = (found / (2.0 * PI * (0.75 * j / k).sqrt()) - 1.0).abs();
@@ -126,8 +126,8 @@ fn dampers_and_damping_slow_by_the_exponential() {
                 assert!(error < allowed, "{integrator:?}: off by {error:e}");
             }
             // The way is v m/c (1 − exp(−c t/m)).
-            let way = v * m / c * (1.0 - (-3.0_f64).exp());
-            assert!((dynamics.bodies[0].position.x - 1.0 - way).abs() < 1e-8);
+            let displacement = v * m / c * (1.0 - (-3.0_f64).exp());
+            assert!((dynamics.bodies[0].position.x - 1.0 - displacement).abs() < 1e-8);
         }
     }
 }
@@ -135,12 +135,12 @@ fn dampers_and_damping_slow_by_the_exponential() {
 #[test]
 fn a_spring_whose_rest_and_stiffness_change_does_as_its_equation_says() {
     let (m, h) = (0.4, 1.1);
-    let rest = Function::Wave { mean: 1.0, amplitude: 0.1, period: 0.7, phase: 0.2 };
+    let rest_length = Function::Wave { mean: 1.0, amplitude: 0.1, period: 0.7, phase: 0.2 };
     let keys = vec![(0.0, 20.0), (1.0, 60.0), (2.0, 10.0)];
     let stiffness = Function::Keys { keys, interpolation: Interpolation::Smooth, repeat: false };
     let damping = 0.5;
     let rate = |t: f64, y: &[f64]| {
-        let (l, k) = (rest.at(t), stiffness.at(t).value);
+        let (l, k) = (rest_length.at(t), stiffness.at(t).value);
         // Downwards from the hook.
         vec![y[1], G - (k * (y[0] - l.value) + damping * (y[1] - l.rate)) / m]
     };
@@ -151,7 +151,7 @@ fn a_spring_whose_rest_and_stiffness_change_does_as_its_equation_says() {
         let mut world = World::new(vec![body(m, DVec3::splat(1e-3), DVec3::NEG_Y * h)]);
         let (a, b) = (world.anchor(Some(0), world.bodies[0].position), world.anchor(None, DVec3::ZERO));
         let base = spring(SpringKind::Linear { a, b }, 0.0, damping);
-        world.springs.push(Spring { rest: rest.clone(), stiffness: stiffness.clone(), ..base });
+        world.springs.push(Spring { rest: rest_length.clone(), stiffness: stiffness.clone(), ..base });
         let mut dynamics = world.start(integrator);
         run(&mut dynamics, 2.0, DT);
         let off = (dynamics.bodies[0].position.y + expected[0]).abs();

@@ -13,9 +13,9 @@ const REACH: f64 = 1.5e-4;
 /// The rates of its end follow: ω₀ times that.
 const RATE: f64 = 2.0 * OMEGA * REACH;
 
-/// A wheel on a nail whose axle is held along `from`, then along `to`; all in the frame `turn`.
-fn swapping(from: DVec3, to: DVec3, turn: DVec3, spin: f64) -> World {
-    let frame = rotation(turn);
+/// A wheel on a nail whose axle is held along `from`, then along `to`; all in the frame `frame_rotation`.
+fn swapping(from: DVec3, to: DVec3, frame_rotation: DVec3, spin: f64) -> World {
+    let frame = rotation(frame_rotation);
     let (from, to) = (frame * from, frame * to);
     let third = from.cross(to);
     let mut wheel = wheel(0.5, 2e-3, DVec3::ZERO);
@@ -42,11 +42,11 @@ fn a_wheel_goes_from_axis_to_axis_smoothly() {
     let axes = DVec3::AXES;
     for integrator in INTEGRATORS {
         for (from, to) in [(2, 1), (1, 2), (0, 1), (1, 0), (0, 2), (2, 0)] {
-            for (turn, spin) in [(DVec3::ZERO, 0.0), (DVec3::ZERO, 8.0), (DVec3::new(0.3, -0.8, 0.5), 3.0)] {
-                let case = format!("{integrator:?}, axis {from} to {to} turned by {turn}, {spin} rad/s");
-                let world = swapping(axes[from], axes[to], turn, spin);
-                let axle = rotation(turn) * axes[from];
-                let goal = rotation(turn) * axes[to];
+            for (frame_rotation, spin) in [(DVec3::ZERO, 0.0), (DVec3::ZERO, 8.0), (DVec3::new(0.3, -0.8, 0.5), 3.0)] {
+                let case = format!("{integrator:?}, axis {from} to {to} turned by {frame_rotation}, {spin} rad/s");
+                let world = swapping(axes[from], axes[to], frame_rotation, spin);
+                let axle = rotation(frame_rotation) * axes[from];
+                let goal = rotation(frame_rotation) * axes[to];
                 let mut dynamics = world.start(integrator);
                 let mut before = dynamics.bodies[0].angular_velocity;
                 let (mut jump, mut last) = (0.0_f64, 0.0);

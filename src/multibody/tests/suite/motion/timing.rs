@@ -78,9 +78,9 @@ fn a_periodic_window_brakes_for_its_share_of_the_time() {
 fn a_nail_that_fades_carries_its_share_and_the_stabiliser_s() {
     // ÿ = −(1 − s) g − s (ω₀² y + 2 ω₀ ẏ), s from 1 to 0 in half a second.
     let (from, to) = (0.25, 0.75);
-    let share = |t: f64| ((to - t) / (to - from)).clamp(0.0, 1.0);
+    let activation = |t: f64| ((to - t) / (to - from)).clamp(0.0, 1.0);
     let rate = |t: f64, y: &[f64]| {
-        let s = share(t + from);
+        let s = activation(t + from);
         vec![y[1], -(1.0 - s) * G - s * (OMEGA * OMEGA * y[0] + 2.0 * OMEGA * y[1])]
     };
     let expected = flow(&rate, &[0.0, 0.0], to - from, 1e-3);
@@ -88,7 +88,7 @@ fn a_nail_that_fades_carries_its_share_and_the_stabiliser_s() {
     for integrator in INTEGRATORS {
         let mut errors = Vec::new();
         for dt in [DT, 0.5 * DT] {
-            // By the end of a rod, where what hangs on the nail answers differently in every direction.
+            // At the end of a rod, where the effective inverse mass differs in every direction.
             let mut world = World::new(vec![body(0.2, DVec3::splat(1e-3), DVec3::ZERO)]);
             world.pin("nail", 0, None, DVec3::ZERO);
             world.constraints[0].schedule = Schedule { ramp_out: to - from, ..window(f64::NEG_INFINITY, to) };
@@ -205,7 +205,7 @@ fn a_hinge_breaks_as_a_whole_and_heals_gently() {
 }
 
 #[test]
-fn what_is_broken_carries_nothing_and_the_rest_carries_more() {
+fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
     // A bar on two nails: m g/2 each; when one goes the other carries m g/4 at once (a rod that begins to turn).
     for integrator in INTEGRATORS {
         let (l, m) = (0.6, 0.4);
@@ -258,7 +258,7 @@ fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
         let schedule = Schedule { trigger: Some(Trigger::Breath { least_speed: 3.0 }), ..window(0.02, 0.12) };
         world.springs.push(Spring { schedule, ..spring(SpringKind::Linear { a, b }, 0.0, c) });
         let mut dynamics = world.start(integrator);
-        let mut grips = 0.0;
+        let mut braking = 0.0;
         for index in 0..240 {
             // Too weak; strong, and going on; a pause; strong again.
             let breath = match index {
@@ -270,19 +270,19 @@ fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
             dynamics.set_breath_speed(breath);
             step(&mut dynamics, DT, &[[0.0; 6]]);
             if index == 39 || index == 75 || index == 239 {
-                let expected = 2.0 * (-c / m * grips).exp();
+                let expected = 2.0 * (-c / m * braking).exp();
                 let error = (dynamics.bodies[0].velocity.x / expected - 1.0).abs();
                 assert!(error < 1e-8, "{integrator:?}, step {index}: off by {error:e}");
             }
             if index == 39 || index == 119 {
-                grips += 0.1;
+                braking += 0.1;
             }
         }
     }
 }
 
 #[test]
-fn a_hit_lets_go_what_waits_for_it() {
+fn an_impact_releases_the_constraint_that_it_triggers() {
     // A ball swings against another that hangs on a nail whose window ends 0.05 s after the hit: then it flies off.
     let r = 0.02;
     let ball = |at: DVec3| body(0.1, DVec3::splat(0.4 * 0.1 * r * r), at);
@@ -291,12 +291,12 @@ fn a_hit_lets_go_what_waits_for_it() {
     world.bodies[0].rotation = rotation(DVec3::Z * -0.3);
     world.pin("nail-0", 0, None, top);
     world.pin("nail-1", 1, None, top + gap);
-    let hit = |least_impulse| Some(Trigger::Impact { body: 1, least_impulse });
-    // Before the hit the schedule is not running: what holds until then is its complement.
+    let impact = |least_impulse| Some(Trigger::Impact { body: 1, least_impulse });
+    // Before the impact the schedule is not running: its complement acts until then.
     let (a, b) = (world.anchor(Some(1), gap), world.anchor(None, DVec3::X * 2.0));
-    let schedule = Schedule { trigger: hit(1e-3), ..window(0.05, f64::INFINITY) };
+    let schedule = Schedule { trigger: impact(1e-3), ..window(0.05, f64::INFINITY) };
     world.springs.push(Spring { schedule, ..spring(SpringKind::Linear { a, b }, 0.0, 5.0) });
-    let schedule = Schedule { trigger: hit(10.0), ..window(0.0, f64::INFINITY) };
+    let schedule = Schedule { trigger: impact(10.0), ..window(0.0, f64::INFINITY) };
     let never = Constraint { schedule, ..world.constraints[0].clone() };
     world.constraints.push(Constraint { name: "never".into(), ..never });
     let colliders = [0, 1].map(|body| Collider {
@@ -306,7 +306,7 @@ fn a_hit_lets_go_what_waits_for_it() {
         node: String::new(),
     });
     let meet = pairs(&colliders, &[], &Reach::default()).meet;
-    let figure = Articulation {
+    let articulation = Articulation {
         bodies: world.bodies.clone(),
         damping: vec![Damping::default(); 2],
         constraints: &world.constraints,
@@ -319,7 +319,7 @@ fn a_hit_lets_go_what_waits_for_it() {
             .map(|pair| SurfacePair { pair, restitution: 1.0, friction: 0.0, resistance: RollingResistance::default() })
             .collect(),
     };
-    let mut dynamics = Dynamics::new(figure, world.settings(Integrator::RungeKutta));
+    let mut dynamics = Dynamics::new(articulation, world.settings(Integrator::RungeKutta));
     let (mut hit_at, mut fastest, mut impacts) = (f64::INFINITY, 0.0_f64, Vec::new());
     for index in 0..240 {
         let t = f64::from(index) * DT;

@@ -19,8 +19,8 @@ const RODS: [(f64, f64); 3] = [(0.3, 0.2), (0.25, 0.15), (0.2, 0.1)];
 /// The pendulum's angular accelerations.
 fn rate(y: &[f64]) -> Vec<f64> {
     let n = y.len() / 2;
-    let (angle, turn) = y.split_at(n);
-    let reach = |i: usize, j: usize| match i.cmp(&j) {
+    let (angle, angle_rate) = y.split_at(n);
+    let length = |i: usize, j: usize| match i.cmp(&j) {
         std::cmp::Ordering::Less => 0.0,
         std::cmp::Ordering::Equal => 0.5 * RODS[j].0,
         std::cmp::Ordering::Greater => RODS[j].0,
@@ -28,14 +28,14 @@ fn rate(y: &[f64]) -> Vec<f64> {
     let mut m = [[0.0; 4]; 3];
     for j in 0..n {
         for k in 0..n {
-            let b: f64 = (0..n).map(|i| RODS[i].1 * reach(i, j) * reach(i, k)).sum();
+            let b: f64 = (0..n).map(|i| RODS[i].1 * length(i, j) * length(i, k)).sum();
             let (s, c) = sincos(angle[j] - angle[k]);
             m[j][k] = b * c;
-            m[j][3] -= b * s * turn[k] * turn[k];
+            m[j][3] -= b * s * angle_rate[k] * angle_rate[k];
         }
         let (l, mass) = RODS[j];
         m[j][j] += mass * l * l / 12.0;
-        m[j][3] -= G * (0..n).map(|i| RODS[i].1 * reach(i, j)).sum::<f64>() * sin(angle[j]);
+        m[j][3] -= G * (0..n).map(|i| RODS[i].1 * length(i, j)).sum::<f64>() * sin(angle[j]);
     }
     for k in 0..n {
         for i in k + 1..n {
@@ -45,7 +45,7 @@ fn rate(y: &[f64]) -> Vec<f64> {
             }
         }
     }
-    let mut out = turn.to_vec();
+    let mut out = angle_rate.to_vec();
     out.extend([0.0; 3].iter().take(n));
     for k in (0..n).rev() {
         out[n + k] = (m[k][3] - (k + 1..n).map(|j| m[k][j] * out[n + j]).sum::<f64>()) / m[k][k];
@@ -76,11 +76,11 @@ fn tip_error(start: &[f64], integrator: Integrator, per_second: u32, seconds: u3
     let mut y = start.to_vec();
     y.resize(2 * n, 0.0);
     let dt = 1.0 / f64::from(per_second);
-    let still = vec![[0.0; 6]; n];
+    let no_wrenches = vec![[0.0; 6]; n];
     let (mut worst, mut apart, mut doubt) = (0.0_f64, 0.0_f64, 0.0_f64);
     let mut finer = y.clone();
     for _ in 0..per_second * seconds {
-        step(&mut dynamics, dt, &still);
+        step(&mut dynamics, dt, &no_wrenches);
         y = advance(&|_, y: &[f64]| rate(y), 0.0, &y, dt);
         finer = (0..2).fold(finer, |y, _| advance(&|_, y: &[f64]| rate(y), 0.0, &y, 0.5 * dt));
         let expected = places(&finer[..n])[n];

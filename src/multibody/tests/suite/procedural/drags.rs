@@ -161,7 +161,7 @@ fn limits_of_angles_are_kept() {
             place = place.clamp_length_max(0.45);
             let grip = Grip { place, ..end_of(&world, 4, LENGTH, place) };
             hand.step(SLOW, if step % 100 < 80 { std::slice::from_ref(&grip) } else { &[] });
-            for bound in 0..hand.dynamics.contacts().bounds() {
+            for bound in 0..hand.dynamics.contacts().bound_count() {
                 let (gap, _) = hand.dynamics.contacts().bound(bound, hand.bodies());
                 worst = worst.max(-gap);
                 at_stop += usize::from(gap < 1e-3);
