@@ -25,11 +25,19 @@ pub(super) enum Evaluated {
     Accelerations,
 }
 
+/// Which factor of the joints a projection uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FactorUse {
+    /// A new one, at the present state.
+    Refactor,
+    /// The last one, of a state that is close to the present one.
+    Reuse,
+}
+
 /// How the joints are closed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointClosing {
-    /// Factor the rows at the present state; else reuse the factor of a state that is close to it.
-    pub refactor: bool,
+    pub factor: FactorUse,
     /// Close the joints in velocity too.
     pub velocities: bool,
 }
@@ -159,7 +167,7 @@ impl Equations {
     /// Closes the joints in position and velocity; leaves the system factored there.
     pub fn project(&mut self, bodies: &mut [RigidBody]) {
         self.system.quads_mut().look(bodies);
-        self.close_joints(bodies, JointClosing { refactor: true, velocities: true });
+        self.close_joints(bodies, JointClosing { factor: FactorUse::Refactor, velocities: true });
         self.evaluated = Evaluated::Factor;
     }
 
@@ -178,9 +186,9 @@ impl Equations {
     }
 
     /// Closes the joints at the lane blocks' state, and writes the bodies.
-    fn close_joints(&mut self, bodies: &mut [RigidBody], JointClosing { refactor, velocities }: JointClosing) {
+    fn close_joints(&mut self, bodies: &mut [RigidBody], JointClosing { factor, velocities }: JointClosing) {
         self.evaluate_quads(bodies);
-        if refactor {
+        if factor == FactorUse::Refactor {
             self.system.factor();
         }
         if self.system.states().is_empty() {

@@ -27,7 +27,7 @@
 use super::Integrator;
 use super::adams::{MultistepHistory, Smoothness};
 use super::contacts::Contacts;
-use super::equations::{Equations, Evaluated, JointClosing};
+use super::equations::{Equations, Evaluated, FactorUse, JointClosing};
 use super::lane_kernels::{Compare, Estimate, Guess, Last, Mean, Restore, Save, Stage, Stages, run_kernel};
 use super::step_size_controller::{self, StepSizeDecision};
 use super::substep_state::{Rate, SLOWEST, SubstepState};
@@ -254,7 +254,7 @@ impl Integration {
         match smoothness {
             Smoothness::Smooth => {
                 // The corrected state differs from the predicted one by an error of fifth order: its factor is reused.
-                moving.close_joints(t + h, false);
+                moving.close_joints(t + h, FactorUse::Reuse);
                 self.history.extend();
                 // The estimate was another method's.
                 self.fourth_step = None;
@@ -305,15 +305,14 @@ impl Integration {
 impl Moving<'_> {
     /// Closes the joints at the new state, at the time `t`, and finds the accelerations there.
     fn finish_substep(&mut self, t: f64) {
-        self.close_joints(t, true);
+        self.close_joints(t, FactorUse::Refactor);
         self.equations.solve_forces(self.bodies, t);
         self.contacts.record_clutch_loads(&self.equations.system);
     }
 
     /// Closes the joints at the new state, at the time `t`. Resting contacts close them in velocity afterwards, with their impulses.
-    /// Without `refactor` the factor is that of a state that differs by less than a step's error.
-    fn close_joints(&mut self, t: f64, refactor: bool) {
+    fn close_joints(&mut self, t: f64, factor: FactorUse) {
         let velocities = !self.contacts.has_resting_contacts();
-        self.equations.close_joints_at(self.bodies, t, JointClosing { refactor, velocities });
+        self.equations.close_joints_at(self.bodies, t, JointClosing { factor, velocities });
     }
 }

@@ -79,7 +79,7 @@ pub(super) struct SubstepSpan {
 
 /// How impacts within a substep are resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum ImpactScheme {
+pub(super) enum ImpactScheme {
     /// Each at its own time: the substep is cut there.
     EventDriven,
     /// All together at the substep's end.
@@ -366,7 +366,7 @@ impl Dynamics {
         let spin = spins.fold(0.0, f64::max);
         let tension = LIMITS.tension_phase / self.loads.stiffest().sqrt();
         let longest = tension.min(LIMITS.rotation / spin.sqrt()).min(self.integration.suggested_step);
-        let longest = longest.min(self.contacts.longest_substep(scheme == ImpactScheme::EventDriven));
+        let longest = longest.min(self.contacts.longest_substep(scheme));
         longest.max(self.shortest_substep(dt))
     }
 

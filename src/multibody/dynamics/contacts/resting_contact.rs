@@ -16,6 +16,7 @@ use super::state::Contacts;
 use super::surfaces::PointGeometry;
 use crate::articulation::System;
 use crate::collision::TOUCH;
+use crate::dynamics::step::ImpactScheme;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 
@@ -115,13 +116,16 @@ impl Contacts {
         any_rests || !self.forces.active.is_empty() || self.clutches.slipping().next().is_some()
     }
 
-    /// Longest substep in which no body tips far, s. With `event_driven` impacts it is also one in which sliding contacts pass no
+    /// Longest substep in which no body tips far, s. With event-driven impacts it is also one in which sliding contacts pass no
     /// feature of their surfaces.
-    pub(in crate::dynamics) fn longest_substep(&self, event_driven: bool) -> f64 {
+    pub(in crate::dynamics) fn longest_substep(&self, scheme: ImpactScheme) -> f64 {
         if self.resting.pairs.iter().all(|&pair| self.sleeping.both(self.surfaces.bodies_of(pair))) {
             return f64::INFINITY;
         }
-        let sliding = if event_driven { (TUNING.slip / self.slip).min(self.sinking_limit) } else { f64::INFINITY };
+        let sliding = match scheme {
+            ImpactScheme::EventDriven => (TUNING.slip / self.slip).min(self.sinking_limit),
+            ImpactScheme::TimeStepping => f64::INFINITY,
+        };
         sliding.min(self.forces.longest_substep())
     }
 
