@@ -1,22 +1,22 @@
-//! A clock's escapement by nothing but contact: pointed teeth, an anchor on a pendulum, friction and bounce.
+//! An anchor escapement by contact alone: pointed teeth, an anchor on a pendulum, friction and restitution.
 //!
 //! # Geometry
 //!
-//! All in the plane z = 0, the wheel's axle at the origin, turning clockwise. N = 30 teeth end in small balls whose
-//! centres go round on the radius R. The anchor spans 7.5 teeth, 90°, so its pallets work at E and X, 45° to the
-//! left and right of the top, and the pendulum's axle O lies where the tangents there meet, at R √2 above the wheel's,
-//! at the distance a = R from both. With n the outward radius and t the way of the teeth (clockwise) at either place:
+//! All is in the plane z = 0. The wheel's axle is at the origin; it turns clockwise. N = 30 teeth end in small balls whose
+//! centres move on the radius R. The anchor spans 7.5 teeth, 90°, so its pallets work at E and X, 45° to the left and
+//! right of the top. The pendulum's axle O is where the tangents there meet: R √2 above the wheel's, at the distance
+//! a = R from both. With n the outward radius and t the direction of the teeth (clockwise) at either point:
 //!
 //! ```text
 //! face of a pallet   from its tip along f = −sin γ t + cos γ n, towards the teeth m = −cos γ t − sin γ n
-//! lift               the tip lies at E (X) when the pendulum has carried it out by the angle +ψ (−ψ)
+//! lift               the tip is at E (X) when the pendulum has moved it outwards by the angle +ψ (−ψ)
 //! a tooth at E means teeth half a pitch, π R/N, before and behind X
 //! drop δ             a tooth that leaves a tip falls by δ on the other side; while one face works the teeth
-//!                    go on by s = π R/N − δ and the pallet out by p = 2 ψ a, and s = p tan γ
+//!                    advance by s = π R/N − δ and the pallet moves out by p = 2 ψ a, and s = p tan γ
 //! ```
 //!
-//! so that N = 30, R = 22.5 mm, δ = 0.5 mm and 2 ψ = 6° give γ = 38°. Beyond ±ψ the face goes on pushing: the wheel
-//! recoils. Pallets are 0.6 mm thick: a tooth that has left runs clear of the back by δ and more.
+//! N = 30, R = 22.5 mm, δ = 0.5 mm and 2 ψ = 6° then give γ = 38°. Beyond ±ψ the face keeps pushing: the wheel
+//! recoils. Pallets are 0.6 mm thick: a tooth that has left clears the back by δ and more.
 //!
 //! # Energy
 //!
@@ -143,14 +143,14 @@ fn angle(q: DQuat) -> f64 {
     2.0 * q.z.atan2(q.w)
 }
 
-/// What a run shows.
+/// Measurements of a run.
 #[derive(Debug, Default)]
 struct Record {
-    /// Turn of the wheel at each passage of the pendulum through the vertical, rad, clockwise.
+    /// Angle of the wheel at each passage of the pendulum through the vertical, rad, clockwise.
     beats: Vec<f64>,
-    /// Largest angle before each.
+    /// Largest angle of the pendulum before each passage, rad.
     swings: Vec<f64>,
-    /// Turn of the wheel in all, rad.
+    /// Total angle of the wheel, rad.
     wheel_angle: f64,
     /// Loss to the air, J.
     damped: f64,
@@ -164,7 +164,7 @@ fn run(clock: &mut Dynamics, seconds: f64) -> Record {
     let (mut before, mut largest) = (angle(clock.bodies[PENDULUM].rotation), 0f64);
     let mut wheel = angle(clock.bodies[WHEEL].rotation);
     for _ in 0..(seconds / DT).round() as usize {
-        // The damping's power is c (m v² + ω·I ω); the trapezoid rule is all but exact over whole swings.
+        // The damping's power is c (m v² + ω·I ω); the trapezoid rule is nearly exact over whole swings.
         let loss = |clock: &Dynamics| 2.0 * rate * clock.bodies[PENDULUM].kinetic_energy();
         run.damped += 0.5 * DT * loss(clock);
         run.impacts.clear();
@@ -186,15 +186,15 @@ fn run(clock: &mut Dynamics, seconds: f64) -> Record {
     run
 }
 
-/// Runs for some minutes and asserts all that a clock must do.
+/// Runs for some minutes and asserts regular beats, swings and an energy balance.
 fn assert_keeps_going(swing: f64, settles: f64, minutes: usize) {
-    /// From beat to beat of the same side the wheel goes on by a tooth, give or take where in its slide it is.
+    /// Error of a tooth from beat to beat of the same side, relative to the pitch: the wheel slides along the pallet.
     const TOOTH_BY_TOOTH: f64 = 0.02;
-    /// Swings of one side after the start, against each other.
+    /// Relative difference of the swings of one side after the start.
     const STEADY: f64 = 0.01;
     /// Error of the energy balance, relative to the drive's work: moving sunken teeth out by micrometres, and the
-    /// trapezoid rule at hits.
-    const LEDGER: f64 = 1e-5;
+    /// trapezoid rule at impacts.
+    const BALANCE: f64 = 1e-5;
     let mut clock = clock(swing);
     run(&mut clock, settles);
     let (mut least, mut most) = ([f64::INFINITY; 2], [0f64; 2]);
@@ -235,7 +235,7 @@ fn assert_keeps_going(swing: f64, settles: f64, minutes: usize) {
         assert!(most[side] - least[side] < STEADY * most[side], "swings from {least:?} to {most:?} rad");
         assert!(least[side] > 1.2 * LIFT, "swings of {} rad are near to stopping", least[side]);
     }
-    assert!(worst.1 < LEDGER, "{} of the drive's work is missing", worst.1);
+    assert!(worst.1 < BALANCE, "{} of the drive's work is missing", worst.1);
 }
 
 #[test]
@@ -246,6 +246,6 @@ fn an_anchor_keeps_a_pendulum_going_tooth_by_tooth() {
 #[test]
 #[ignore = "an hour of the clock: minutes of the machine"]
 fn an_anchor_keeps_a_pendulum_going_for_an_hour() {
-    // From a swing that barely frees a tooth; it gathers for six times the pendulum's own time, 2 Q/ω₀.
+    // From a swing that barely frees a tooth; it settles for six time constants of the pendulum, 2 Q/ω₀.
     assert_keeps_going(0.06, 300.0, 60);
 }

@@ -14,7 +14,7 @@ use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, body, elliptic_period, 
 const PHASE: f64 = 1e-13;
 
 impl World {
-    /// Σ coefficient · turn about z of (body, frame) stays.
+    /// Σ coefficient · angle about z of (body, frame) is constant.
     fn couple(&mut self, name: &str, terms: &[(Option<usize>, Option<usize>, f64)]) {
         let term = |&(body, frame, coefficient): &(Option<usize>, Option<usize>, f64)| Term {
             measure: Measure::Angle { axis: self.axis(body, DVec3::Z), frame },
@@ -66,7 +66,7 @@ fn a_pair_of_gears_shares_a_torque_by_its_ratio() {
 
 #[test]
 fn gears_on_a_swinging_frame_change_its_swing() {
-    // With both wheels' turns q counted against the frame, r₁ q₁ + r₂ q₂ = 0 and q = r₁/r₂: from rest
+    // With both wheels' angles q relative to the frame, r₁ q₁ + r₂ q₂ = 0 and q = r₁/r₂: from rest
     //   q̇₁ = −θ̇ (J₁ − q J₂)/(J₁ + q² J₂)      I = I_frame + J₁ + J₂ − (J₁ − q J₂)²/(J₁ + q² J₂)
     let (ratio, j1, j2, start) = (3.0, 2e-3, 8e-3, 0.7);
     let turned = |v: DVec3| rotation(DVec3::Z * start) * v;
@@ -106,7 +106,7 @@ fn gears_on_a_swinging_frame_change_its_swing() {
 
 #[test]
 fn a_planetary_gear_reduces_by_its_teeth() {
-    // Ring R = S + 2P stands, the sun is driven: carrier ω S/(S + R), planet (ω_s − ω_c) (−S/P) against the carrier.
+    // Ring R = S + 2P is fixed, a torque acts on the sun: carrier ω S/(S + R), planet (ω_s − ω_c) (−S/P) against the carrier.
     let (s, p, torque) = (24.0, 18.0, 0.01);
     let r = s + 2.0 * p;
     let (js, jc, jp, mp) = (1e-3, 4e-3, 5e-4, 0.15);
@@ -129,7 +129,7 @@ fn a_planetary_gear_reduces_by_its_teeth() {
         let expected = torque / inertia;
         let rates = [0, 1, 2].map(|i| dynamics.bodies[i].angular_velocity.z);
         for (found, ratio) in rates.into_iter().zip([1.0, carrier, planet]) {
-            // The planet's axle bends: centripetal force is no polynomial of time, so more than rounding is left.
+            // The planet's axle moves on a circle: centripetal force is no polynomial of time, so the error exceeds rounding.
             let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-8 };
             let error = (found - ratio * expected).abs();
             assert!(error < allowed * expected.abs(), "{integrator:?}: {rates:?}, off by {error:e}");
@@ -208,7 +208,7 @@ fn a_compound_pulley_halves_the_way() {
     }
 }
 
-/// Σ teeth · angle, after a coupling's gauges have followed these bodies.
+/// Σ teeth · angle, by a coupling's gauges that have counted up to these bodies.
 fn slip(gauges: &[(Gauge, f64)], bodies: &[RigidBody]) -> f64 {
     let frames: Vec<_> = bodies.iter().map(|b| matrix(b.rotation)).collect();
     let mut parts: Vec<_> = (0..bodies.len()).map(|i| (i, [0.0; 6])).collect();
@@ -217,7 +217,7 @@ fn slip(gauges: &[(Gauge, f64)], bodies: &[RigidBody]) -> f64 {
 
 #[test]
 fn phases_are_counted_exactly_over_a_hundred_thousand_turns() {
-    // The rotations as they are at every radian of the slow wheel's way: nothing of it is integrated.
+    // The rotations at every radian of the slow wheel are given, not integrated.
     let (z1, z2) = (12.0, 60.0);
     let mut bodies = [wheel(0.2, 1e-3, DVec3::ZERO), wheel(0.2, 1e-3, DVec3::X)];
     let measure = |body| Measure::Angle {
@@ -228,7 +228,7 @@ fn phases_are_counted_exactly_over_a_hundred_thousand_turns() {
     let mut worst = 0.0_f64;
     let (turns, per_turn) = (100_000_u64, 5_u64);
     for index in 0..=turns * per_turn {
-        // Whole turns are taken off in integers: the angle handed over is exact to rounding.
+        // Whole turns are subtracted as integers: the angle is exact to rounding.
         let angle = |ratio: u64, sign: f64| {
             let part = index % (per_turn * ratio);
             sign * 2.0 * PI * part as f64 / (per_turn * ratio) as f64
@@ -247,21 +247,21 @@ fn phases_are_counted_exactly_over_a_hundred_thousand_turns() {
     assert!(worst * 5e-4 < PHASE, "off by {worst:e}");
 }
 
-/// Largest phase error, m, of gears of a module of one millimetre that run by themselves for this many turns.
+/// Largest phase error, m, of gears of a module of one millimetre over this many turns of free motion.
 fn running(integrator: Integrator, turns: f64, rate: f64, dt: f64) -> f64 {
     let (z1, z2, module) = (12.0, 60.0, 1e-3);
     let mut world = wheels(&[1e-4, 2e-3]);
     world.gravity = DVec3::ZERO;
     world.bodies[0].angular_velocity = DVec3::Z * rate;
     world.bodies[1].angular_velocity = DVec3::Z * -rate * z1 / z2;
-    // By tooth numbers: radii of 6 and 30 mm are not one to five in binary, and differ by a picometre after such a way.
+    // By tooth numbers: radii of 6 and 30 mm are not one to five in binary, and differ by a picometre over such an angle.
     world.couple("gears", &[(Some(0), None, z1), (Some(1), None, z2)]);
     let mut dynamics = world.start(integrator);
     let no_wrenches = [[0.0; 6]; 2];
     let mut worst = 0.0_f64;
     for _ in 0..(turns * 2.0 * PI / rate / dt).round() as usize {
         step(&mut dynamics, dt, &no_wrenches);
-        // Wrapped, so that no count of turns can hide what the rotations say.
+        // Wrapped, so that no count of turns can hide an error of the rotations.
         let angle = |i: usize| 2.0 * dynamics.bodies[i].rotation.z.atan2(dynamics.bodies[i].rotation.w);
         let teeth = (z1 * angle(0) + z2 * angle(1)) / (2.0 * PI);
         worst = worst.max((teeth - teeth.round()).abs() * PI * module);

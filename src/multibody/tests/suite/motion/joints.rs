@@ -95,7 +95,7 @@ fn a_bead_on_a_turning_wire_is_thrown_out_by_the_hyperbolic_cosine() {
         run(&mut dynamics, SECOND, DT);
         let along = rotation(DVec3::Y * omega * SECOND) * DVec3::X;
         let off = dynamics.bodies[0].position - start * (omega * SECOND).cosh() * along;
-        // The motion is no polynomial: the fourth order leaves (Ωh)⁵ a step.
+        // The motion is no polynomial: the error of fourth order is (Ωh)⁵ a step.
         let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-9 };
         assert!(off.length() < allowed, "{integrator:?}: off by {off}");
         let push = dynamics.system().carried(0).0.hypot(dynamics.system().carried(1).0);
@@ -132,7 +132,7 @@ fn a_weld_makes_one_body_of_two() {
         let corner = DVec3::ONE;
         let (apart, off) = (p.point(corner).distance(q.point(corner)), p.point(corner).distance(r.point(corner)));
         println!("weld, {integrator:?}: off by {off:.1e} m");
-        // Both are integrated, the one body and the two: by the fourth order to some 1e-7.
+        // The one body and the two are both integrated, with a fourth-order error of some 1e-7.
         let allowed = if integrator == Integrator::Precise { 1e-10 } else { 1e-6 };
         assert!(apart < 10.0 * CLOSED && off < allowed, "{integrator:?}: {apart} m apart, {off} m off");
     }
@@ -141,7 +141,7 @@ fn a_weld_makes_one_body_of_two() {
 #[test]
 fn a_universal_joint_turns_its_output_unevenly() {
     // ω₂/ω₁ = cos β / (1 − sin² β cos² φ), φ the angle of the input's pin from the plane of the two axles. The bearings
-    // hold all else: of the joint itself only the orientation row is new.
+    // hold the other directions: of the joint itself only the orientation row is new.
     let beta = 0.6_f64;
     let (first, second) = (DVec3::X, DVec3::new(beta.cos(), beta.sin(), 0.0));
     for integrator in INTEGRATORS {
@@ -181,7 +181,7 @@ fn a_universal_joint_turns_its_output_unevenly() {
 
 #[test]
 fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
-    // Torque about the axle alone turns the sails; turning the mast does not, and costs the gyroscopic torque I Ω ω.
+    // Only torque about the axle changes the spin of the sails. Turning the mast takes the gyroscopic torque I Ω ω.
     let (spin, yaw, inertia) = (12.0, 1.5, 2e-3);
     for integrator in INTEGRATORS {
         let hub = DVec3::new(0.0, 1.0, 0.2);
@@ -197,7 +197,7 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
         let mut dynamics = world.start(integrator);
         let no_wrenches = [[0.0; 6]; 2];
         let mut turned = 0.0;
-        // The directions that bear the torque turn with the mast: the fourth order leaves (Ωh)⁵ a step.
+        // The directions of the torque rotate with the mast: the error of fourth order is (Ωh)⁵ a step.
         let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-8 };
         for _ in 0..480 {
             step(&mut dynamics, DT, &no_wrenches);
@@ -209,7 +209,7 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
             let torque = dynamics.system().carried(1).1.hypot(dynamics.system().carried(2).1);
             assert!((torque - inertia * spin * yaw).abs() < allowed, "{torque} N m");
         }
-        // Now the mast is stopped, and a wind that also pushes and tilts blows.
+        // Now the mast is stopped, and a wind pushes and tilts it as well.
         world.kinematic_bodies[0].motion =
             KeyframeMotion { keys: vec![(0.0, Pose::IDENTITY)], interpolation: Interpolation::Step, repeat: false };
         world.bodies[0].angular_velocity = DVec3::ZERO;
@@ -272,7 +272,7 @@ fn bodies_follow_a_function_and_bear_its_acceleration() {
 
 #[test]
 fn bodies_are_where_their_keys_say_and_hanging_bodies_feel_it() {
-    // A table that is lifted, turned and shaken: a block in a corner of it goes along, welded.
+    // A table that is lifted, turned and shaken, with a block welded to its corner.
     let keys: Vec<(f64, Pose)> = (0..7)
         .map(|i| {
             let t = 0.5 * f64::from(i);

@@ -35,7 +35,7 @@ fn a_four_bar_linkage_keeps_its_energy_and_its_pins() {
             scale = scale.max(dynamics.bodies[0].kinetic_energy() + dynamics.bodies[2].kinetic_energy());
             assert!(dynamics.bodies.iter().all(|b| (b.rotation * DVec3::Z).dot(DVec3::Z) > 1.0 - 1e-14));
         }
-        // Four hinges of five rows hold seventeen of eighteen freedoms.
+        // Four hinges of five rows constrain seventeen of eighteen degrees of freedom.
         assert_eq!(dynamics.system().redundant_rows().len(), 3, "{solver:?}");
         let lost = lost / scale;
         println!("four-bar, {integrator:?}, {solver:?}: energy off by {lost:.1e}, pins by {apart:.1e} m");
@@ -49,7 +49,7 @@ fn a_four_bar_linkage_keeps_its_energy_and_its_pins() {
 const ROD: f64 = 0.1;
 const LIGHT: f64 = 0.05;
 
-/// A ladder of so many loops, tilted: two rails of rods, a rung between each two of their joints, all hinged; its rails hang on the
+/// A ladder of so many loops, tilted: two rails of rods, a rung between each two of their joints, all hinged; its rails hang from the
 /// world.
 fn ladder(loops: usize) -> World {
     let place =
@@ -67,7 +67,7 @@ fn ladder(loops: usize) -> World {
     world
 }
 
-/// A net of n × n knots, rods between neighbours, all by balls; it sags between its corners, which are nailed. Its knots are the
+/// A net of n × n knots, rods between neighbours with ball joints; it sags between its fixed corners. Its knots are the
 /// sums of two lines of equal steps, so that all rods have one length.
 fn net(n: usize) -> World {
     let step = |k: usize| 0.6 * ((2 * k + 1) as f64 / (n - 1) as f64 - 1.0);
@@ -96,7 +96,7 @@ fn net(n: usize) -> World {
 
 #[test]
 fn ladders_and_nets_stay_closed_and_keep_their_energy() {
-    /// Of the largest kinetic energy: the method's own error over a second.
+    /// Relative to the largest kinetic energy: the method's own error over a second.
     const KEPT: f64 = 1e-5;
     for (name, world) in [("ladder", ladder(20)), ("net", net(5))] {
         let mut dynamics = world.start(Integrator::Auto);
@@ -112,7 +112,7 @@ fn ladders_and_nets_stay_closed_and_keep_their_energy() {
         println!("{name}: energy off by {:.1e}, joints by {apart:.1e} m", lost / scale);
         assert!(lost < KEPT * scale, "{name}: energy off by {:e}", lost / scale);
         assert!(apart < CLOSED, "{name}: {apart:e} m apart");
-        // Each loop of hinges in a plane has three rows too many, a net's rods have none.
+        // Each loop of hinges in a plane has three redundant rows, a net's rods have none.
         let expected = if name == "ladder" { 60 } else { 0 };
         assert_eq!(dynamics.system().redundant_rows().len(), expected, "{name}");
     }
@@ -138,8 +138,8 @@ const LINKS: usize = 40;
 const LENGTH: f64 = 0.05;
 const MASS: f64 = 0.02;
 
-/// Places of the chain's joints at rest when it draws sideways with `pull` N: every rod lies along the mean of the forces
-/// on its two ends.
+/// Equilibrium positions of the chain's joints under a horizontal tension of `pull` N: every rod lies along the mean of the
+/// forces on its two ends.
 fn resting(pull: f64) -> Vec<DVec3> {
     let mut places = vec![DVec3::ZERO];
     for i in 0..LINKS {
@@ -150,7 +150,7 @@ fn resting(pull: f64) -> Vec<DVec3> {
     places
 }
 
-/// The sideways pull at which the chain spans `span`.
+/// Horizontal tension at which the chain spans `span` (m), N.
 fn pull_for(span: f64) -> f64 {
     let (mut low, mut high) = (1e-3, 1e3);
     for _ in 0..200 {
@@ -160,7 +160,7 @@ fn pull_for(span: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The chain with its joints at these places, pinned at both ends.
+/// The chain with its joints at these positions, pinned at both ends.
 fn chain(places: &[DVec3]) -> World {
     let mut world = World::new((0..LINKS).map(|i| rod(MASS, places[i], places[i + 1])).collect());
     for i in 0..LINKS {
@@ -201,7 +201,7 @@ fn a_chain_between_two_walls_bears_the_tension_of_the_catenary() {
 
 #[test]
 fn a_chain_hung_askew_comes_to_rest_as_a_catenary() {
-    // Strained from another shape of the same length and span: a tent. Damped, it comes to rest.
+    // Another shape of the same length and span at the start: a tent. Damped, it comes to rest.
     const SETTLED: f64 = 1e-4;
     let span = 1.2;
     let half = 0.5 * LINKS as f64 * LENGTH;
@@ -217,7 +217,7 @@ fn a_chain_hung_askew_comes_to_rest_as_a_catenary() {
     let mut dynamics = world.start(Integrator::RungeKutta);
     run(&mut dynamics, 5.0, DT);
     assert!(dynamics.joint_error() < CLOSED);
-    // What it carries at rest, without the damping, whose last solve was for an impulse.
+    // Its loads at rest, without damping, whose last solve was for an impulse.
     world.bodies = dynamics.bodies;
     world.damping = Damping::default();
     let mut dynamics = world.start(Integrator::RungeKutta);
@@ -241,7 +241,7 @@ fn scattered_linkages_close_their_joints() {
             let mut random = Random::new(seed);
             let mut vector = || DVec3::new(random.signed(), random.signed(), random.signed());
             world.gravity = DVec3::ZERO;
-            // What the stabiliser does not take back of its work would spin thin rods for ever.
+            // The stabiliser's remaining work would spin thin rods for ever.
             world.damping = Damping { linear: 3.0, angular: 3.0 };
             for body in &mut world.bodies {
                 let spread = if name == "linkage" { 0.1 } else { 0.5 };
@@ -264,7 +264,7 @@ fn scattered_linkages_close_their_joints() {
     }
 }
 
-/// A trunk with two arms and a hand, on a nail, by balls and hinges.
+/// A trunk with two arms and a hand, on a nail, with ball joints and hinges.
 fn branches() -> World {
     let joints = [DVec3::ZERO, DVec3::NEG_Y * 0.4, DVec3::NEG_Y * 0.4, DVec3::new(0.3, -0.6, 0.0)];
     let ends =

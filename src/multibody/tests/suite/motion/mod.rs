@@ -1,5 +1,5 @@
-//! Motion against the laws: every joint, gear, spring, window and drive against its formula, through `Dynamics::step`
-//! and by both integrators that exhibits use.
+//! Motion against formulas: every joint, gear, spring, window and kinematic body, through `Dynamics::step` and by both
+//! integrators that exhibits use.
 
 mod clutches;
 mod gears;
@@ -24,9 +24,9 @@ pub const G: f64 = 9.81;
 pub const DT: f64 = 1.0 / 240.0;
 /// ω₀ of the stabiliser, 1/s.
 pub const OMEGA: f64 = 25.0;
-/// The two that exhibits use.
+/// The two integrators that exhibits use.
 pub const INTEGRATORS: [Integrator; 2] = [Integrator::RungeKutta, Integrator::Precise];
-/// What an exact law leaves after some hundred steps of rounding, in m, rad, m/s and rad/s.
+/// Rounding error of an exact formula after some hundred steps, in m, rad, m/s and rad/s.
 pub const ROUNDING: f64 = 1e-11;
 /// Gap of a joint of a metre-sized mechanism: rounding of its coordinates.
 pub const CLOSED: f64 = 1e-12;
@@ -44,7 +44,7 @@ pub struct World {
 }
 
 impl World {
-    /// These bodies under gravity, without anything that holds them.
+    /// These bodies under gravity, without joints.
     pub fn new(bodies: Vec<RigidBody>) -> Self {
         Self {
             bodies,
@@ -74,7 +74,7 @@ impl World {
     pub fn settings(&self, integrator: Integrator) -> Settings {
         Settings {
             gravity: self.gravity,
-            // Damping is all that it switches here: no pivot has friction.
+            // It switches damping alone: no pivot has friction.
             friction: self.damping != Damping::default(),
             stabilization_time: 1.0 / OMEGA,
             integrator,
@@ -86,20 +86,20 @@ impl World {
         self.constraints.push(Constraint::new(name, kind));
     }
 
-    /// A point of body `a` stays on a point of `b` (or the world): both are at `place` now.
+    /// Ball joint at `place` between `a` and `b` (or the world).
     pub fn pin(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3) {
         let kind = ConstraintKind::PointToPoint { a: self.anchor(Some(a), place), b: self.anchor(b, place) };
         self.add(name, kind);
     }
 
-    /// Directions of `a` and `b`, world axes now, stay at their angle.
+    /// Constant angle between directions of `a` and `b`, given as world axes.
     pub fn across(&mut self, name: &str, a: usize, t: DVec3, b: Option<usize>, n: DVec3) {
         let angle = Function::Constant(t.dot(n).asin());
         let kind = ConstraintKind::Orientation { a: self.axis(Some(a), t), b: self.axis(b, n), angle };
         self.add(name, kind);
     }
 
-    /// A pin and two orientations: `a` turns about `axis` at `place`.
+    /// Hinge of `a` about `axis` at `place`: a ball joint and two orientations.
     pub fn hinge(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, axis: DVec3) {
         self.pin(&format!("{name}/nail"), a, b, place);
         let (u, v) = soffio_math::tangents(axis);
@@ -107,39 +107,39 @@ impl World {
         self.across(&format!("{name}/across-2"), a, axis, b, v);
     }
 
-    /// Three orientations: `a` does not turn against `b`.
+    /// No relative rotation of `a` and `b`: three orientations.
     pub fn fix_turn(&mut self, name: &str, a: usize, b: Option<usize>) {
         for (k, (t, n)) in [(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)].into_iter().enumerate() {
             self.across(&format!("{name}/turn-{k}"), a, t, b, n);
         }
     }
 
-    /// A point of `a` that is at `place` stays in the plane of `b` through it.
+    /// The point of `a` at `place` stays in a plane of `b` through it.
     pub fn plane(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, normal: DVec3) {
         let (point, plane) = (self.anchor(Some(a), place), self.anchor(b, place));
         let normal = self.axis(b, normal).direction;
         self.add(name, ConstraintKind::PointOnPlane { point, plane, normal, offset: Function::default() });
     }
 
-    /// Two planes: the point stays on a straight wire.
+    /// The point stays on a straight wire: two planes.
     pub fn wire(&mut self, name: &str, a: usize, b: Option<usize>, place: DVec3, along: DVec3) {
         let (u, v) = soffio_math::tangents(along);
         self.plane(&format!("{name}/plane-1"), a, b, place, u);
         self.plane(&format!("{name}/plane-2"), a, b, place, v);
     }
 
-    /// `a` slides along a direction without turning.
+    /// `a` slides along a direction without rotation.
     pub fn slider(&mut self, name: &str, a: usize, b: Option<usize>, along: DVec3) {
         self.fix_turn(name, a, b);
         self.wire(name, a, b, self.bodies[a].position, along);
     }
 
-    /// The body's (or the world's) point that is at a place now.
+    /// Anchor of the body (or the world) at a world point.
     pub fn anchor(&self, body: Option<usize>, place: DVec3) -> Anchor {
         Anchor { body, point: body.map_or(place, |i| self.bodies[i].pose().inverse_point(place)) }
     }
 
-    /// The body's (or the world's) axis that points so now.
+    /// Axis of the body (or the world) along a world direction.
     pub fn axis(&self, body: Option<usize>, direction: DVec3) -> Axis {
         Axis { body, direction: body.map_or(direction, |i| self.bodies[i].pose().inverse_vector(direction)) }
     }
@@ -156,7 +156,7 @@ pub fn wheel(mass: f64, inertia: f64, position: DVec3) -> RigidBody {
     body(mass, DVec3::new(0.6, 0.6, 1.0) * inertia, position)
 }
 
-/// A thin rod between two places.
+/// A thin rod between two points.
 pub fn rod(mass: f64, from: DVec3, to: DVec3) -> RigidBody {
     let separation = to - from;
     let l = separation.length();
@@ -166,7 +166,7 @@ pub fn rod(mass: f64, from: DVec3, to: DVec3) -> RigidBody {
     rod
 }
 
-/// Steps without external forces; what comes back is how long it took.
+/// Steps without external forces. Returns the time that it took.
 pub fn run(dynamics: &mut Dynamics, seconds: f64, dt: f64) {
     let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     for _ in 0..(seconds / dt).round() as usize {
@@ -178,8 +178,8 @@ pub fn step(dynamics: &mut Dynamics, dt: f64, external: &[[f64; 6]]) {
     assert_eq!(dynamics.step(dt, external, &mut Vec::new()), None, "bad numbers");
 }
 
-/// A body that is accelerated evenly from rest at the origin at t = 0, until t = 20 s: splines through a parabola's
-/// points are that parabola.
+/// A kinematic body with constant acceleration from rest at the origin, until t = 20 s: splines through points of a parabola
+/// are that parabola.
 pub fn accelerated(body: usize, acceleration: DVec3) -> KinematicBody {
     let key = |i: i32| {
         let t = f64::from(i);
@@ -189,7 +189,7 @@ pub fn accelerated(body: usize, acceleration: DVec3) -> KinematicBody {
     KinematicBody { body, motion: KeyframeMotion { keys, interpolation: Interpolation::Spline, repeat: false } }
 }
 
-/// A body that turns about an axis through the origin at an even rate, until t = 100 radians.
+/// A kinematic body that rotates about an axis through the origin at a constant rate, by 100 rad.
 pub fn turning(body: usize, rate: DVec3) -> KinematicBody {
     let key = |i: i32| {
         let t = f64::from(i) / rate.length();
@@ -208,8 +208,8 @@ pub fn elliptic_period(square: f64, angle: f64) -> f64 {
     2.0 * PI / square.sqrt() / a
 }
 
-/// Mean time from one upward zero of a coordinate to the next over `seconds`; the zeros are those of the cubics through
-/// its values and rates.
+/// Mean time between upward zeros of a coordinate over `seconds`; the zeros are those of cubics through its values and
+/// rates.
 pub fn period(dynamics: &mut Dynamics, seconds: f64, dt: f64, read: impl Fn(&Dynamics) -> (f64, f64)) -> f64 {
     let no_wrenches = vec![[0.0; 6]; dynamics.bodies.len()];
     let mut zeros = Vec::new();

@@ -1,4 +1,4 @@
-//! Pendulums on nails and hinges that stand still, are accelerated, shaken, or go along a path.
+//! Pendulums on nails and hinges that are fixed, accelerated, shaken, or move along a path.
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::Function;
@@ -10,8 +10,7 @@ use soffio_multibody::dynamics::{Dynamics, Integrator, KeyframeMotion, Kinematic
 use super::reference::flow;
 use super::{CLOSED, DT, G, INTEGRATORS, ROUNDING, World, accelerated, body, elliptic_period, period, rod, run, step};
 
-/// Relative error of a period over ten swings, and of an angle after some seconds: what the method's order leaves at
-/// 1/240 s.
+/// Relative error of a period over ten swings, and of an angle after some seconds, by the method's order at 1/240 s.
 fn followed(integrator: Integrator) -> f64 {
     match integrator {
         Integrator::Precise => 1e-11,
@@ -44,7 +43,7 @@ fn a_rod_on_a_nail_keeps_the_elliptic_period() {
 
 #[test]
 fn a_body_of_any_shape_on_a_hinge_is_a_physical_pendulum() {
-    // An axis that is none of its principal ones: the hinge bears the torques that want to turn it out of the plane.
+    // The axis is no principal axis: the hinge bears the torques out of the plane.
     let mut bob = body(0.7, DVec3::new(0.02, 0.03, 0.045), DVec3::new(0.25, -0.3, 0.1));
     bob.rotation = rotation(DVec3::new(0.4, -0.7, 0.3));
     let axis = DVec3::new(0.2, 0.1, 1.0).normalize();
@@ -79,7 +78,7 @@ fn hanging(l: f64, angle: f64) -> RigidBody {
 
 #[test]
 fn a_nail_that_is_accelerated_tilts_and_hastens_its_pendulum() {
-    // In its frame gravity is (−a, −g): the pendulum rests at atan(a/g) and swings about there under √(g² + a²).
+    // In its frame gravity is (−a, −g): the equilibrium is at atan(a/g), and the pendulum swings about it under √(g² + a²).
     let (l, a) = (0.5, 3.0_f64);
     let tilt = -(a / G).atan();
     for integrator in INTEGRATORS {
@@ -115,7 +114,7 @@ fn a_nail_shaken_up_and_down_drives_its_pendulum() {
     let (l, angle, amplitude, beat) = (0.3, 0.6, 0.05, 0.35);
     let wave = Function::Wave { mean: 0.0, amplitude, period: beat, phase: 0.0 };
     let mut world = World::new(vec![hanging(l, angle)]);
-    // It starts with the nail's speed, which turns it no faster.
+    // It starts with the nail's velocity, without rotation.
     world.bodies[0].velocity = DVec3::Y * wave.at(0.0).rate;
     let (point, plane) = (world.anchor(Some(0), DVec3::ZERO), world.anchor(None, DVec3::ZERO));
     for (normal, offset) in [(DVec3::X, Function::default()), (DVec3::Y, wave.clone()), (DVec3::Z, Function::default())]
@@ -135,7 +134,7 @@ fn a_nail_shaken_up_and_down_drives_its_pendulum() {
         let (found, _) = swing(&dynamics.bodies[0], nail);
         let error = (found - expected[0]).abs();
         println!("shaken nail, {integrator:?}: off by {error:.1e} rad");
-        // The wave beats eleven times as fast as the pendulum swings.
+        // The wave has eleven times the frequency of the pendulum.
         assert!(error < 1e3 * followed(integrator), "{integrator:?}: {found} against {} rad", expected[0]);
         assert!(dynamics.joint_error() < CLOSED);
     }
@@ -175,7 +174,7 @@ fn a_point_goes_along_its_path_and_feels_what_that_takes() {
 #[test]
 fn a_pendulum_in_a_turning_hinge_is_thrown_outwards() {
     // The axle turns about the vertical at Ω: θ̈ = Ω² k sin θ cos θ − (3g/2l) sin θ, k = 1 − I₃/I₁ by the moments about
-    // the nail. It rests at cos θ = 3g/(2 l k Ω²).
+    // the nail. Its equilibrium is cos θ = 3g/(2 l k Ω²).
     let (l, omega) = (0.4, 9.0);
     let k = 1.0 - 1e-3 * 0.25;
     let equilibrium = (1.5 * G / (l * k * omega * omega)).acos();

@@ -64,7 +64,7 @@ fn a_wheel_on_a_torsion_spring_keeps_its_period_through_whole_turns() {
         let half = PI * (j / k).sqrt();
         let steps = 480.0;
         run(&mut dynamics, half, half / steps);
-        // Half a period later it has gone through as far on the other side, and rests for a moment.
+        // Half a period later it is as far on the other side, at its turning point.
         let wheel = &dynamics.bodies[0];
         let angle = 2.0 * wheel.rotation.z.atan2(wheel.rotation.w);
         let off = (angle - 2.0 * wound).rem_euclid(2.0 * PI);
@@ -73,7 +73,7 @@ fn a_wheel_on_a_torsion_spring_keeps_its_period_through_whole_turns() {
         assert!(off < 10.0 * period_error(integrator), "{integrator:?}: off by {off:e}");
         let rate = wheel.angular_velocity.z / (wound * (k / j).sqrt());
         assert!(rate.abs() < 10.0 * period_error(integrator), "{integrator:?}: still turning, {rate:e}");
-        // Between two bodies it is their reduced inertia that counts.
+        // Between two bodies the reduced inertia counts.
         let mut world = World::new(vec![wheel_at(j, 0.0), wheel_at(3.0 * j, 0.1)]);
         world.hinge("axle-1", 0, None, DVec3::ZERO, DVec3::Z);
         world.hinge("axle-2", 1, None, DVec3::Z * 0.1, DVec3::Z);
@@ -99,7 +99,7 @@ fn wheel_at(j: f64, z: f64) -> soffio_geometry::bodies::RigidBody {
 fn dampers_and_damping_slow_by_the_exponential() {
     let (m, c, v, rate) = (0.3, 0.9, 2.0, 3.0);
     for integrator in INTEGRATORS {
-        // A dashpot on a slider, one on an axle, and the damping that a body has of itself.
+        // A dashpot on a slider, one on an axle, and a body's own damping.
         let mut bodies = vec![body(m, DVec3::splat(1e-3), DVec3::X), wheel(0.2, 1e-3, DVec3::Y)];
         bodies[0].velocity = DVec3::X * v;
         bodies[1].angular_velocity = DVec3::Z * rate;
@@ -125,7 +125,7 @@ fn dampers_and_damping_slow_by_the_exponential() {
                 let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-8 };
                 assert!(error < allowed, "{integrator:?}: off by {error:e}");
             }
-            // The way is v m/c (1 − exp(−c t/m)).
+            // The displacement is v m/c (1 − exp(−c t/m)).
             let displacement = v * m / c * (1.0 - (-3.0_f64).exp());
             assert!((dynamics.bodies[0].position.x - 1.0 - displacement).abs() < 1e-8);
         }
@@ -156,7 +156,7 @@ fn a_spring_whose_rest_and_stiffness_change_does_as_its_equation_says() {
         run(&mut dynamics, 2.0, DT);
         let off = (dynamics.bodies[0].position.y + expected[0]).abs();
         println!("changing spring, {integrator:?}: off by {off:.1e} m");
-        // The smooth keys' third derivative jumps: the sixth order is not all there.
+        // The third derivative of smooth keys jumps, so the sixth order is not reached.
         let allowed = if integrator == Integrator::Precise { 1e-10 } else { 1e-7 };
         assert!(off < allowed, "{integrator:?}: off by {off:e} m");
     }

@@ -1,4 +1,4 @@
-//! Orientations that take turns: a wheel's axle is led from one axis to another, critically damped.
+//! Alternating orientations: a wheel's axle moves from one axis to another, critically damped.
 
 use soffio_math::Function;
 use soffio_math::{DVec3, PI, rotation};
@@ -8,12 +8,12 @@ use super::{DT, INTEGRATORS, OMEGA, World, step, wheel};
 
 /// When the rows change; inside a step.
 const CHANGE: f64 = 0.1037;
-/// The way goes by the stabiliser's law until projection closes the last of it, 1e-4 rad.
+/// Angle error, rad: the stabiliser moves the axle until projection closes the last 1e-4 rad.
 const REACH: f64 = 1.5e-4;
-/// The rates of its end follow: ω₀ times that.
+/// Error of the rate, rad/s: ω₀ times that.
 const RATE: f64 = 2.0 * OMEGA * REACH;
 
-/// A wheel on a nail whose axle is held along `from`, then along `to`; all in the frame `frame_rotation`.
+/// A wheel on a nail whose axle is constrained along `from`, then along `to`; all rotated by `frame_rotation`.
 fn swapping(from: DVec3, to: DVec3, frame_rotation: DVec3, spin: f64) -> World {
     let frame = rotation(frame_rotation);
     let (from, to) = (frame * from, frame * to);
@@ -55,7 +55,7 @@ fn a_wheel_goes_from_axis_to_axis_smoothly() {
                     let t = f64::from(index + 1) * DT;
                     let now = dynamics.bodies[0].rotation * world.axis(Some(0), axle).direction;
                     let angle = now.dot(axle).clamp(-1.0, 1.0).acos();
-                    // It may choose the way, not the law: C = π/2 (1 + ω₀t) exp(−ω₀t).
+                    // Any direction is allowed, with C = π/2 (1 + ω₀t) exp(−ω₀t).
                     let since = (t - CHANGE).max(0.0);
                     let expected = 0.5 * PI * (1.0 - (1.0 + OMEGA * since) * (-OMEGA * since).exp());
                     assert!((angle - expected).abs() < REACH, "{case}: {angle} rad against {expected} rad at {t} s");
@@ -65,7 +65,7 @@ fn a_wheel_goes_from_axis_to_axis_smoothly() {
                 }
                 let side = (dynamics.bodies[0].rotation * world.axis(Some(0), axle).direction).dot(goal).abs();
                 assert!((side - 1.0).abs() < 1e-12, "{case}: it ends {last} rad away");
-                // No jerk beyond what the stabiliser asks at the start: ω₀² π/2, and the spin that is carried along.
+                // No acceleration above that of the stabiliser at the start, ω₀² π/2, and that of the spin.
                 let allowed = (OMEGA * OMEGA * 0.5 * PI + OMEGA * spin) * DT + RATE;
                 assert!(jump < allowed, "{case}: ω jumps by {jump}, at most {allowed} rad/s");
                 assert!(dynamics.joint_error() < super::CLOSED);

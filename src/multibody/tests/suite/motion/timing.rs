@@ -1,4 +1,4 @@
-//! Windows, ramps, breaking, healing and triggers, each at its moment inside the step.
+//! Activation windows, ramps, breaking, healing and triggers, each at its time inside the step.
 
 use soffio_math::Function;
 use soffio_math::Interpolation;
@@ -34,7 +34,7 @@ fn a_nail_lets_go_inside_the_step() {
 
 #[test]
 fn a_floor_is_there_from_its_moment_on() {
-    // The stone falls through the height at which the floor will be just as the floor comes.
+    // The stone passes the height of the floor when the floor appears.
     let start = 0.4321;
     let height = -0.5 * G * start * start;
     for integrator in INTEGRATORS {
@@ -97,12 +97,12 @@ fn a_nail_that_fades_carries_its_share_and_the_stabiliser_s() {
             errors.push((dynamics.bodies[0].position.y - falls).abs());
         }
         println!("fading nail, {integrator:?}: off by {:.1e} m, {:.1e} m in half steps", errors[0], errors[1]);
-        // Shares are those of the middle of a substep: of second order.
+        // The activation is that of the middle of a substep: second order.
         assert!(errors[0] < 1e-4 && errors[1] < 0.3 * errors[0], "{integrator:?}: {errors:?}");
     }
 }
 
-/// A rod on a nail, drawn down by a spring whose pull grows by `growth` N a second from 0.
+/// A rod on a nail, pulled down by a spring whose force grows from 0 by `growth` N a second.
 fn loaded(growth: f64) -> World {
     let k = 50.0;
     let mut world = World::new(vec![rod(0.2, DVec3::ZERO, DVec3::NEG_Y * 0.3)]);
@@ -177,7 +177,7 @@ fn a_hinge_breaks_as_a_whole_and_heals_gently() {
         world.hinge("axle", 0, None, DVec3::ZERO, DVec3::Z);
         world.constraints[0].breaking = Some(Breaking { force: 5.0, restore, ..Breaking::default() });
         let mut dynamics = world.start(integrator);
-        // Torn at with 9 N and a twist: the nail goes, and the axle's directions with it.
+        // Under 9 N and a torque the nail breaks, and the axle's orientations with it.
         let torn = [2.0, -9.0, 1.0, 0.05, 0.05, 0.0];
         step(&mut dynamics, DT, &[torn]);
         assert_eq!(dynamics.breaks().len(), 1, "{:?}", dynamics.breaks());
@@ -189,7 +189,7 @@ fn a_hinge_breaks_as_a_whole_and_heals_gently() {
         let gap = |d: &Dynamics| d.bodies[0].pose().point(world.anchor(Some(0), DVec3::ZERO).point).length();
         let fallen = gap(&dynamics);
         assert!(fallen > 0.05, "it fell by {fallen} m");
-        // Critical damping: it goes on for at most v/(e ω₀) more, and comes back without swinging over.
+        // Critical damping: it moves on by at most v/(e ω₀) and returns without overshoot.
         let speed = dynamics.bodies[0].velocity.length() + dynamics.bodies[0].angular_velocity.length() * 0.3;
         let mut last = 0.0;
         for _ in 0..480 {
@@ -206,7 +206,7 @@ fn a_hinge_breaks_as_a_whole_and_heals_gently() {
 
 #[test]
 fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
-    // A bar on two nails: m g/2 each; when one goes the other carries m g/4 at once (a rod that begins to turn).
+    // A bar on two nails: m g/2 each. When one breaks the other carries m g/4 at once (a rod that begins to rotate).
     for integrator in INTEGRATORS {
         let (l, m) = (0.6, 0.4);
         let mut world = World::new(vec![rod(m, DVec3::ZERO, DVec3::X * l)]);
@@ -221,9 +221,9 @@ fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
         run(&mut dynamics, 0.25, DT);
         step(&mut dynamics, 1e-6, &[[0.0; 6]]);
         let [left, right] = loads(&dynamics);
-        // A millionth of a second on it has turned by 1e-11 and runs at 2e-5 rad/s.
+        // A microsecond later it has rotated by 1e-11 rad, at 2e-5 rad/s.
         assert!((left - 0.25 * m * G).abs() < 1e-6 && right == 0.0, "{integrator:?}: {left} N and {right} N");
-        // A coupling that is over carries nothing either.
+        // A coupling whose window has ended carries nothing either.
         let mut world = World::new(vec![wheel(0.2, 1e-3, DVec3::ZERO), wheel(0.2, 1e-3, DVec3::X)]);
         world.hinge("axle-0", 0, None, DVec3::ZERO, DVec3::Z);
         world.hinge("axle-1", 1, None, DVec3::X, DVec3::Z);
@@ -247,7 +247,7 @@ fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
 
 #[test]
 fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
-    // A brake that grips for 0.1 s from 0.02 s after every breath of 3 m/s or more.
+    // A brake that acts for 0.1 s, from 0.02 s after every breath of 3 m/s or more.
     let (m, c) = (0.3, 2.0);
     for integrator in INTEGRATORS {
         let mut sled = body(m, DVec3::splat(1e-3), DVec3::X);
@@ -260,7 +260,7 @@ fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
         let mut dynamics = world.start(integrator);
         let mut braking = 0.0;
         for index in 0..240 {
-            // Too weak; strong, and going on; a pause; strong again.
+            // Too weak; strong, and continuing; a pause; strong again.
             let breath = match index {
                 10..=30 => 2.9,
                 40..=80 => 3.5,
@@ -283,7 +283,7 @@ fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
 
 #[test]
 fn an_impact_releases_the_constraint_that_it_triggers() {
-    // A ball swings against another that hangs on a nail whose window ends 0.05 s after the hit: then it flies off.
+    // A ball swings against another that hangs on a nail whose window ends 0.05 s after the impact: then it flies off.
     let r = 0.02;
     let ball = |at: DVec3| body(0.1, DVec3::splat(0.4 * 0.1 * r * r), at);
     let (top, gap) = (DVec3::Y * 0.5, DVec3::X * (2.0 * r + 1e-6));
@@ -332,7 +332,7 @@ fn an_impact_releases_the_constraint_that_it_triggers() {
             fastest = speed;
         }
         if t > hit_at + 0.15 {
-            // The dashpot of 5 N s/m on 0.1 kg eats the speed in some 20 ms.
+            // A dashpot of 5 N s/m stops 0.1 kg in some 20 ms.
             assert!(speed < 0.1 * fastest, "it still runs at {speed} of {fastest} m/s");
             break;
         }

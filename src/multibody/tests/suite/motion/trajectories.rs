@@ -1,7 +1,7 @@
 //! Double and triple pendulums, regular and chaotic, against Lagrange's equations in angles, integrated to rounding.
 //!
-//! Thin rods of length l and mass m, θ from straight down; a_ij is how far rod i's centre goes per unit of θ_j (l_j
-//! above it, l_i/2 of its own), B_jk = Σ_i m_i a_ij a_ik:
+//! Thin rods of length l and mass m, θ from straight down; a_ij is the displacement of rod i's centre per unit of θ_j (l_j
+//! of a rod above it, l_i/2 of its own), B_jk = Σ_i m_i a_ij a_ik:
 //!
 //! ```text
 //! Σ_k (B_jk cos(θ_j − θ_k) + δ_jk m l²/12) θ̈_k + Σ_k B_jk sin(θ_j − θ_k) θ̇_k² + g Σ_i m_i a_ij sin θ_j = 0
@@ -62,8 +62,8 @@ fn places(angles: &[f64]) -> Vec<DVec3> {
     out
 }
 
-/// Largest distance of the tip from where it belongs within `seconds`, m; the largest gap of a joint; and how far apart
-/// the reference is from itself in half steps, which grows as all errors do.
+/// Largest error of the tip within `seconds`, m; the largest gap of a joint, m; and the difference between the reference and
+/// that of half steps, which grows as all errors do, m.
 fn tip_error(start: &[f64], integrator: Integrator, per_second: u32, seconds: u32) -> (f64, f64, f64) {
     let n = start.len();
     let pins = places(start);
@@ -98,7 +98,7 @@ fn regular_pendulums_stay_within_a_nanometre_for_ten_seconds() {
         for integrator in INTEGRATORS {
             let (error, apart, doubt) = tip_error(start, integrator, 240, 10);
             println!("{name}, regular, {integrator:?} at 1/240: tip off by {error:.1e} m, reference {doubt:.0e} m");
-            // The bar is the precise integrator's; the fourth order is held to what it is good for.
+            // The bar of the precise integrator; the fourth order has its own.
             let allowed = if integrator == Integrator::Precise { BAR } else { 1e-5 };
             assert!(error < allowed, "{name}, {integrator:?}: tip off by {error:e} m");
             assert!(apart < CLOSED && doubt < BAR);
@@ -108,8 +108,8 @@ fn regular_pendulums_stay_within_a_nanometre_for_ten_seconds() {
 
 #[test]
 fn chaotic_pendulums_are_followed_for_ten_seconds() {
-    // Starts at which errors grow by many orders: the double's fourth order ends millimetres off. At wilder ones a
-    // reference of this precision soon disagrees with itself in half steps, and says nothing.
+    // Errors grow by many orders from these starts: the double pendulum's fourth order ends millimetres off. From wilder
+    // ones a reference of this precision soon differs from itself in half steps.
     const BAR: f64 = 1e-5;
     for (name, start) in [("double", &[1.45, 1.45][..]), ("triple", &[1.33, 1.33, 1.33])] {
         for integrator in INTEGRATORS {
