@@ -126,33 +126,33 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     let at = |position: DVec3| Pose { rotation: DQuat::IDENTITY, position };
     let mut pieces: Vec<(Piece, Pose)> = Vec::new();
     let great_wheel = vec![
-        flat("GreatWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
+        flat("GreatWheel", wheel(GREAT.wheel, 0.0), BACK, WOOD, wood),
         along_z("GreatArbor", 3.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     pieces.push((piece("GreatWheel", great_wheel), at(great)));
-    let mut phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(great, minute));
+    let mut phase = meshing_phase(GREAT.pinion, GREAT.wheel, 0.0, toward(great, minute));
     let hand = |name, size, out, z, angle| clock::hand(name, size, out, z, angle, finishes.black);
     let minute_parts = vec![
-        flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
-        flat("MinutePinion", spur_gear(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("MinuteArbor", wheel(MINUTE.wheel, 0.0), MIDDLE, WOOD, wood),
+        flat("MinutePinion", spur_gear(GREAT.pinion, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
-        flat("Cannon", spur_gear(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
+        flat("Cannon", spur_gear(CANNON.wheel, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
         hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, clock::minute_hand()),
     ];
     pieces.push((piece("MinuteArbor", minute_parts), at(minute)));
-    phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
+    phase = meshing_phase(MINUTE.pinion, MINUTE.wheel, 0.0, toward(minute, third));
     let third_parts = vec![
-        flat("ThirdWheel", wheel(THIRD.0, 0.0), FRONT, WOOD, wood),
-        flat("ThirdPinion", spur_gear(MINUTE.1, MODULE, 6.0 * MM, phase, &[]), MIDDLE, WOOD, wood),
+        flat("ThirdWheel", wheel(THIRD.wheel, 0.0), FRONT, WOOD, wood),
+        flat("ThirdPinion", spur_gear(MINUTE.pinion, MODULE, 6.0 * MM, phase, &[]), MIDDLE, WOOD, wood),
         along_z("ThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     pieces.push((piece("ThirdWheel", third_parts), at(third)));
     let turned_by = clock::escape_phase();
-    phase = meshing_phase(THIRD.1, THIRD.0, 0.0, toward(third, escape)) - turned_by;
+    phase = meshing_phase(THIRD.pinion, THIRD.wheel, 0.0, toward(third, escape)) - turned_by;
     let tooth = DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING);
     let escape_parts = vec![
         flat("EscapeWheel", clock::escape_wheel(), ESCAPING, BRASS, finishes.brass),
-        flat("EscapePinion", spur_gear(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
+        flat("EscapePinion", spur_gear(THIRD.pinion, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
         along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
         part("EscapeTooth", rod(TOOTH, -MM, MM), tooth, DQuat::IDENTITY, BRASS, finishes.brass),
     ];
@@ -162,16 +162,16 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     pieces.push((clock::anchor(finishes), at(pivot)));
     pieces.push((clock::pendulum(finishes, LENGTH, false), at(pivot)));
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio_math::sin(0.9), -soffio_math::cos(0.9), 0.0);
-    phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
+    phase = meshing_phase(CANNON.pinion, CANNON.wheel, 0.0, toward(CENTER, minute_wheel_at));
     let motion_parts = vec![
-        flat("MinuteWheel", spur_gear(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
-        flat("HourPinion", spur_gear(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
+        flat("MinuteWheel", spur_gear(CANNON.pinion, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
+        flat("HourPinion", spur_gear(HOUR.wheel, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
     ];
     pieces.push((piece("MinuteWheel", motion_parts), at(minute_wheel_at)));
-    phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
+    phase = meshing_phase(HOUR.pinion, HOUR.wheel, 0.0, toward(minute_wheel_at, CENTER));
     let bore: Polygon = ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32);
     let hour_parts = vec![
-        flat("HourWheel", spur_gear(HOUR.1, 0.96 * MM, WHEEL, phase, &[bore]), MOTION + 5.0 * MM, WOOD, wood),
+        flat("HourWheel", spur_gear(HOUR.pinion, 0.96 * MM, WHEEL, phase, &[bore]), MOTION + 5.0 * MM, WOOD, wood),
         hand("HourHand", [54.0 * MM, 4.0 * MM], 31.0 * MM, MOTION + 8.0 * MM, clock::hour_hand()),
     ];
     pieces.push((piece("HourWheel", hour_parts), at(CENTER)));

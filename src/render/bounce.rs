@@ -56,7 +56,7 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
     let (positions, normals) = start_geometry(scene, exhibit);
     let order = groups(&positions, &normals, radius);
     let rays = (ALL_RAYS / order.len().max(1)).min(RAYS.1);
-    let Some(caster) = (rays >= RAYS.0).then(|| RayCaster::new(scene, &positions, false)).flatten() else { return };
+    let Some(caster) = (rays >= RAYS.0).then(|| RayCaster::of_opaque(scene, &positions)).flatten() else { return };
     let mut group_of = vec![0; positions.len()];
     for (index, group) in order.iter().enumerate() {
         group.iter().for_each(|&i| group_of[i as usize] = index);
@@ -123,7 +123,7 @@ fn inward(scene: &Scene, positions: &[Vec3]) -> Vec<Vec3> {
 
 /// Irradiance from an area light, as far as it is visible.
 fn from_area(caster: &RayCaster, place: Vec3, normal: Vec3, area: &AreaLight) -> Vec3 {
-    let (center, (x, y)) = (area.center, area.half);
+    let AreaLight { center, half_width: x, half_height: y, .. } = *area;
     if (place - center).dot(x.cross(y)) <= 0.0 {
         return Vec3::ZERO;
     }
@@ -230,8 +230,13 @@ pub(super) mod tests {
             ..Default::default()
         };
         let (exhibit, scene) = of_primitive(floor, Vec::new());
-        let caster = RayCaster::new(&scene, &start_geometry(&scene, &exhibit).0, false).expect("a triangle");
-        let area = |up: f32| AreaLight { center: Vec3::Y, half: (Vec3::X, up * Vec3::Z), radiance: Vec3::ONE };
+        let caster = RayCaster::of_opaque(&scene, &start_geometry(&scene, &exhibit).0).expect("a triangle");
+        let area = |up: f32| AreaLight {
+            center: Vec3::Y,
+            half_width: Vec3::X,
+            half_height: up * Vec3::Z,
+            radiance: Vec3::ONE,
+        };
         let lit = from_area(&caster, 1e-4 * Vec3::Y, Vec3::Y, &area(1.0));
         assert!((lit.x / PI - 4.0 * 0.138_532).abs() < TOLERANCE, "{lit}");
         assert_eq!(from_area(&caster, 1e-4 * Vec3::Y, Vec3::Y, &area(-1.0)), Vec3::ZERO, "it shines to one side");

@@ -103,7 +103,7 @@ impl Globals {
         g.background = lighting.background.unwrap_or_default();
         if let Some(area) = lighting.area_light {
             (g.area_center, g.area_radiance) = (area.center, area.radiance);
-            (g.area_x, g.area_y) = area.half;
+            (g.area_x, g.area_y) = (area.half_width, area.half_height);
         }
         g.shadow_from_world = map.clip_from_world;
         (g.shadow_radius, g.shadow_texel) = (map.light_radius, map.texel);
@@ -115,14 +115,13 @@ impl Globals {
             *to = from.extend(0.0);
         }
         for (to, lamp) in g.lamps.iter_mut().zip(&gallery.lamps) {
-            let (cos_inner, cos_outer) = lamp.cone;
             *to = LampUniform {
                 position: lamp.position,
                 radius: lamp.radius,
                 color: lamp.intensity,
-                cos_outer,
+                cos_outer: lamp.cos_outer,
                 axis: lamp.axis,
-                cos_inner,
+                cos_inner: lamp.cos_inner,
             };
         }
         for (to, plane) in g.planes.iter_mut().zip(planes) {

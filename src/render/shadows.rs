@@ -64,7 +64,7 @@ impl ReceivingPlane {
         normal: Vec3,
         resolution: u32,
     ) -> Self {
-        let bounds = exhibit.bounds(false);
+        let bounds = exhibit.bounds();
         let half = if bounds.is_empty() { Vec3::splat(0.5) } else { (0.5 * (bounds.max - bounds.min)).as_vec3() };
         let swept = half.with_y(0.0).length();
         let half = Vec3::new(swept, half.y, swept) * 1.08;
@@ -129,7 +129,7 @@ impl ShadowMapCamera {
     ) -> Self {
         let (eye, light_radius) = match &lighting.area_light {
             Some(area) => {
-                let surface = 4.0 * area.half.0.cross(area.half.1).length();
+                let surface = 4.0 * area.half_width.cross(area.half_height).length();
                 (area.center, (surface / std::f32::consts::PI).sqrt())
             }
             None => (gallery.lamps[0].position, gallery.lamps[0].radius),

@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use soffio_detector::BlowDetector;
-use soffio_exhibit::{self as exhibit, AttractAction, Diagnostic, Exhibit, Report, codes};
+use soffio_exhibit::{self as exhibit, AttractAction, Diagnostic, Exhibit, ImpactFrame, Report, codes};
 use soffio_geometry::support::Core;
 use soffio_math::{DVec3, PI};
 use soffio_multibody::articulation::{ConstraintKind, LimitKind};
@@ -148,7 +148,7 @@ fn a_sounding_plate_is_measured() {
     assert!((spec.body.half_extents[0] - 0.1).abs() < SINGLE && (spec.body.half_extents[1] - 0.05).abs() < SINGLE);
     assert!((spec.body.thickness - 1e-3).abs() < SINGLE && (spec.body.area - 0.02).abs() < SINGLE);
     assert!((spec.gain - 0.501_187).abs() < SINGLE, "{}", spec.gain);
-    let (long, wide, center) = exhibit.sounds[0].frame;
+    let ImpactFrame { longest: long, middle: wide, center } = exhibit.sounds[0].frame;
     assert!(long.y.abs() > 1.0 - SINGLE && wide.x.abs() > 1.0 - SINGLE && center.length() < SINGLE);
 }
 
