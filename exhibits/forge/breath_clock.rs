@@ -19,7 +19,8 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 use super::terry_clock as clock;
 use super::terry_clock::{CANNON, GREAT, HOUR, MINUTE, THIRD, TIP, TOOTH};
 use super::terry_layout::{
-    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, WHEEL, along_z, flat, piece, toward, wheel,
+    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, ToothCounts, WHEEL, along_z, flat, piece,
+    toward, wheel,
 };
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};
@@ -29,7 +30,12 @@ use soffio_authoring::stock_parts::{
 };
 
 /// Teeth of the winding train, each pair from the slower wheel to the faster pinion.
-pub const WINDING: [(usize, usize); 4] = [(64, 8), (64, 8), (60, 6), (64, 16)];
+pub const WINDING: [ToothCounts; 4] = [
+    ToothCounts { wheel: 64, pinion: 8 },
+    ToothCounts { wheel: 64, pinion: 8 },
+    ToothCounts { wheel: 60, pinion: 6 },
+    ToothCounts { wheel: 64, pinion: 16 },
+];
 /// Direction of each arbor from the previous one, in the plane of the plates.
 const STEPS: [(f64, f64); 4] = [(-0.995, 0.0998), (-0.6, 0.8), (-0.8, 0.6), (-0.94, 0.341_174_442)];
 /// Layers of the winding wheel and of the wheels that drive it.
@@ -47,8 +53,8 @@ const LENGTH: f64 = 290.3010 * MM;
 /// Arbors of the winding train: winding wheel, first, second, third, rotor.
 fn winding_places() -> [DVec3; 5] {
     let mut places = [clock::places()[0]; 5];
-    for (k, ((wheel, pinion), (x, y))) in WINDING.into_iter().zip(STEPS).enumerate() {
-        places[k + 1] = places[k] + 0.5 * MODULE * (wheel + pinion) as f64 * DVec3::new(x, y, 0.0).normalize();
+    for (k, (teeth, (x, y))) in WINDING.into_iter().zip(STEPS).enumerate() {
+        places[k + 1] = places[k] + teeth.center_distance(MODULE) * DVec3::new(x, y, 0.0).normalize();
     }
     places
 }
@@ -58,9 +64,9 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let places = winding_places();
     let wood = finishes.wood;
     let pinion = |k: usize, phase: f64| {
-        let (wheel, teeth) = WINDING[k];
-        let phase = meshing_phase(teeth, wheel, phase, toward(places[k], places[k + 1]));
-        spur_gear(teeth, MODULE, 6.0 * MM, phase, &[])
+        let teeth = WINDING[k];
+        let phase = meshing_phase(teeth.pinion, teeth.wheel, phase, toward(places[k], places[k + 1]));
+        spur_gear(teeth.pinion, MODULE, 6.0 * MM, phase, &[])
     };
     let planet = |name, angle: f64| {
         let out = 13.0 * MM * DVec3::new(soffio_math::cos(angle), soffio_math::sin(angle), 0.0);
@@ -75,11 +81,12 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
             planet("PlanetRight", 0.0),
         ],
     );
-    let winding_wheel = piece("WindingWheel", vec![flat("WindingWheel", wheel(WINDING[0].0, 0.0), WIND, WOOD, wood)]);
+    let winding_wheel =
+        piece("WindingWheel", vec![flat("WindingWheel", wheel(WINDING[0].wheel, 0.0), WIND, WOOD, wood)]);
     let first = piece(
         "WindingFirst",
         vec![
-            flat("WindingFirst", wheel(WINDING[1].0, 0.0), BEHIND, WOOD, wood),
+            flat("WindingFirst", wheel(WINDING[1].wheel, 0.0), BEHIND, WOOD, wood),
             flat("WindingFirstPinion", pinion(0, 0.0), WIND, WOOD, wood),
             along_z("WindingFirstArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
@@ -87,7 +94,7 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let second = piece(
         "WindingSecond",
         vec![
-            flat("WindingSecond", wheel(WINDING[2].0, 0.0), WIND, WOOD, wood),
+            flat("WindingSecond", wheel(WINDING[2].wheel, 0.0), WIND, WOOD, wood),
             flat("WindingSecondPinion", pinion(1, 0.0), BEHIND, WOOD, wood),
             along_z("WindingSecondArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
@@ -95,7 +102,7 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let third = piece(
         "WindingThird",
         vec![
-            flat("WindingThird", wheel(WINDING[3].0, 0.0), BEHIND, WOOD, wood),
+            flat("WindingThird", wheel(WINDING[3].wheel, 0.0), BEHIND, WOOD, wood),
             flat("WindingThirdPinion", pinion(2, 0.0), WIND, WOOD, wood),
             along_z("WindingThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],

@@ -79,7 +79,13 @@ pub const GLASS: ChimeDesign<'static> = ChimeDesign {
     tube: [20.0, 1.8],
     density: 2500.0,
     tubes: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
-    glass: Some(Glass { wall: 1.8 * MM, ior: 1.52, through: 0.96, color: [0.36, 0.74, 0.70], way: 0.012 }),
+    glass: Some(Glass {
+        wall_thickness: 1.8 * MM,
+        ior: 1.52,
+        transmission: 0.96,
+        attenuation_color: [0.36, 0.74, 0.70],
+        attenuation_distance: 0.012,
+    }),
     sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
 };
 
