@@ -15,7 +15,7 @@ const SINGLE: f64 = 1e-6;
 
 pub fn loads_without_a_warning(id: &str) {
     let folder = exhibit::resolve(id).expect("an id that was listed");
-    let loaded = exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}:\n{}", report.render(false)));
+    let loaded = exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}:\n{}", report.to_text()));
     assert!(loaded.warnings.is_empty(), "{id}: {:#?}", loaded.warnings);
     assert_eq!(loaded.id, id);
 }

@@ -89,7 +89,7 @@ fn load(id: &str) -> Arc<Exhibit> {
         return exhibit.clone();
     }
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))));
+    let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())));
     read().insert(id.to_owned(), exhibit.clone());
     exhibit
 }

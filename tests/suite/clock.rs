@@ -19,7 +19,7 @@ const TEETH: f64 = 42.0;
 
 fn shipped() -> Arc<Exhibit> {
     let folder = exhibit::resolve("terry-clock").unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text())))
 }
 
 /// The clock without air.

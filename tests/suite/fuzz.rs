@@ -24,7 +24,7 @@ fn seeds_are_good_files() {
     let stored = std::fs::read("tests/fuzz/seeds/model/figure.glb").expect("a seed");
     assert!(stored == boom_and_plate(), "seeds/model/figure.glb is not the figure that the tests make");
     for file in files("seeds", "model") {
-        exhibit::load_model(&file).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        exhibit::load_model(&file).unwrap_or_else(|report| panic!("{}", report.to_text()));
     }
     for file in files("seeds", "recording") {
         assert!(wav::read(&file).is_ok_and(|recording| recording.samples.len() == 64), "{file:?}");
@@ -32,7 +32,7 @@ fn seeds_are_good_files() {
     for file in files("seeds", "sidecar") {
         let folder = Folder::exhibit(&boom_and_plate(), "");
         folder.write(exhibit::SIDECAR, &std::fs::read(&file).expect("a seed"));
-        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
     }
 }
 

@@ -9,7 +9,7 @@ use soffio_simulation::{
 
 fn load(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn steps(seconds: f64) -> u64 {

@@ -13,7 +13,7 @@ const ASPECT: f64 = 16.0 / 9.0;
 
 fn load(id: &str) -> Exhibit {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false)))
+    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text()))
 }
 
 fn begin(id: &str) -> Simulation {

@@ -21,7 +21,7 @@ const SHEET: f64 = 0.02;
 
 fn shipped(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn body(exhibit: &Exhibit, name: &str) -> usize {

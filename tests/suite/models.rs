@@ -73,7 +73,7 @@ fn import(json: &Value, bin: &[u8]) -> Result<Imported, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("model.glb");
     std::fs::write(&path, glb(json, bin)).expect("written");
-    model::import(&path).map_err(|report| report.render(false))
+    model::import(&path).map_err(|report| report.to_text())
 }
 
 #[test]

@@ -225,7 +225,7 @@ fn a_joint_that_closes_again_is_drawn_together_before_it_can_break() {
 fn a_breath_sets_off_what_waits_for_it_and_an_event_says_when() {
     let text = "[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n[[constraint.nail]]\nname = \"catch\"\nbody = \"Box\"\n\
                 to = [0, 0, 0]\ntrigger = { on = \"breath\", least = \"2 m/s\" }\nwindow = { start = 0, end = 0.5 }\n";
-    let exhibit = small(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let exhibit = small(text).unwrap_or_else(|report| panic!("{}", report.to_text()));
     assert_eq!(exhibit.constraints[0].schedule.trigger, Some(Trigger::Breath { least_speed: 2.0 }));
     let exhibit = Arc::new(exhibit);
     let mut simulation = Simulation::new(exhibit.clone(), Settings { wind: false, ..Settings::default() });

@@ -37,7 +37,7 @@ fn try_load(text: &str) -> Result<Exhibit, Report> {
 }
 
 fn load(text: &str) -> Exhibit {
-    try_load(text).unwrap_or_else(|report| panic!("{text}\n{}", report.render(false)))
+    try_load(text).unwrap_or_else(|report| panic!("{text}\n{}", report.to_text()))
 }
 
 /// A turn by `turn` (rotation vector, world) about a world point, then a way.
@@ -241,7 +241,7 @@ fn a_gear_with_backlash_is_free_between_the_flanks_of_its_teeth() {
         [(teeth, "\"2 deg\"", [7.0, 1.0], PI / 90.0), (radii, "\"0.5 mm\"", [0.07, 0.01], 5e-4)]
     {
         let loose = gear(size, &format!("backlash = {backlash}"));
-        let exhibit = loose.unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let exhibit = loose.unwrap_or_else(|report| panic!("{}", report.to_text()));
         assert!(exhibit.constraints.is_empty());
         let LimitKind::Play { terms, play } = exhibit.limits[0].kind else { panic!("{:?}", exhibit.limits) };
         assert!((play - wanted).abs() < SINGLE * wanted, "{play}");

@@ -23,8 +23,7 @@ fn scene() -> (Scene, usize) {
 }
 
 fn load(scene: &Scene, text: &str) -> Exhibit {
-    exhibit::load(Folder::exhibit(&scene.glb(), text).path())
-        .unwrap_or_else(|report| panic!("{}", report.render(false)))
+    exhibit::load(Folder::exhibit(&scene.glb(), text).path()).unwrap_or_else(|report| panic!("{}", report.to_text()))
 }
 
 const BOX: &str = "[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n";
