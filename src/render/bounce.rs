@@ -49,8 +49,11 @@ const RAY_ROTATION: f32 = 0.37;
 
 /// Light that falls on a static scene.
 pub(super) struct BakedLight<'a> {
+    /// Light from the environment map.
     pub environment: &'a Environment,
+    /// Factor on the radiance of the environment map.
     pub env_intensity: f32,
+    /// Area light, if the scene has one.
     pub area: Option<AreaLight>,
 }
 

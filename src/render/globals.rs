@@ -42,11 +42,14 @@ struct PlaneUniform {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Globals {
+    /// View and projection of the camera.
     pub clip_from_world: Mat4,
     shadow_from_world: Mat4,
+    /// Position of the camera, world, m.
     pub eye: Vec3,
     exposure: f32,
     right: Vec3,
+    /// Size of a pixel at distance 1.
     pub pixel_angle: f32,
     up: Vec3,
     shadow_taps: f32,
@@ -61,6 +64,7 @@ pub(super) struct Globals {
     wall_albedo: Vec3,
     lamp_count: u32,
     floor_albedo: Vec3,
+    /// Number of punctual lights in use.
     pub punctual_count: u32,
     area_center: Vec3,
     shadow_radius: f32,
@@ -77,6 +81,7 @@ pub(super) struct Globals {
     irradiance: [Vec4; 9],
     lamps: [LampUniform; 2],
     planes: [PlaneUniform; 2],
+    /// Punctual lights, world frame.
     pub punctual: [PunctualUniform; MAX_PUNCTUAL],
 }
 

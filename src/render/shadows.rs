@@ -23,7 +23,9 @@ pub(super) struct ReceivingPlane {
     pub origin: Vec3,
     /// Unit vectors along texture u and v.
     pub u: Vec3,
+    /// Unit vector along texture v.
     pub v: Vec3,
+    /// Unit normal, towards the exhibit.
     pub normal: Vec3,
     /// Size along u and v, m.
     pub size: Vec2,
@@ -103,6 +105,7 @@ fn gallery_axis(gallery: &Gallery, axis: Vec3) -> Vec3 {
 /// The shadow-map camera at the light that shades the exhibit itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadowMapCamera {
+    /// View and projection of the light.
     pub clip_from_world: Mat4,
     /// Radius of the light, m.
     pub light_radius: f32,
@@ -110,6 +113,7 @@ pub(super) struct ShadowMapCamera {
     pub texel: f32,
     /// Distances of reversed depth 1 and 0, m.
     pub near: f32,
+    /// Distance of reversed depth 0, m.
     pub far: f32,
 }
 
