@@ -88,7 +88,7 @@ pub(super) struct Bindings {
 pub(super) struct PlaneTargets {
     /// Shadows on wall and floor.
     pub views: [wgpu::TextureView; 2],
-    /// Depth targets that tell the lamp samples apart, for wall and floor.
+    /// Depth targets that separate the lamp samples, for wall and floor.
     pub orders: [wgpu::TextureView; 2],
     /// Size of each, texels.
     pub texels: [(u32, u32); 2],
