@@ -138,7 +138,7 @@ fn uniform(appearance: &Appearance) -> MaterialUniform {
 struct Textures<'a> {
     gpu: &'a Gpu,
     images: &'a [Image],
-    made: BTreeMap<(usize, bool), wgpu::TextureView>,
+    made: BTreeMap<(usize, ColorSpace), wgpu::TextureView>,
     samplers: &'a mut BTreeMap<Sampler, wgpu::Sampler>,
 }
 
