@@ -26,7 +26,8 @@ use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::Piece;
 use soffio_authoring::stock_parts::{
-    BRASS, Finishes, LEAD, MM, STEEL, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, y_to_z,
+    BRASS, Finishes, LEAD, MM, STEEL, VanePlacement, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane,
+    y_to_z,
 };
 
 /// Teeth of the winding train, each pair from the slower wheel to the faster pinion.
@@ -114,8 +115,13 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     ];
     for (k, name) in SAIL_NAMES.into_iter().enumerate() {
         let color = if k % 2 == 0 { finishes.red } else { finishes.blue };
-        let mut sail =
-            vane(name, [66.0 * MM, 34.0 * MM, 0.8 * MM], 42.0 * MM, PI * k as f64 / 3.0, -0.6, (WOOD, color));
+        let mut sail = vane(
+            name,
+            [66.0 * MM, 34.0 * MM, 0.8 * MM],
+            VanePlacement { radius: 42.0 * MM, angle: PI * k as f64 / 3.0, pitch: -0.6 },
+            WOOD,
+            color,
+        );
         sail.place.position.z += SAILS;
         parts.push(sail);
     }

@@ -7,7 +7,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
 use super::glb::{Finish, Glass, Scene};
-use super::hanging::{BEVEL, to_mass};
+use super::hanging::{BEVEL, SheetMass, to_mass};
 use super::outline::{Polygon, area_and_centroid, ring};
 use super::piece::{BentWire, Piece, load, named};
 use super::solid::{Solid, extrude, revolve, revolve_ring};
@@ -213,7 +213,7 @@ fn sail(finishes: &FinishIndices) -> Piece {
     let area = area_and_centroid(&outline).0 * MM * MM;
     let mass = 0.5 * SAIL_MASS;
     let thickness = mass / (LIME_WOOD_DENSITY * area);
-    let solid = to_mass(outline, Vec::new(), thickness, (LIME_WOOD_DENSITY, mass));
+    let solid = to_mass(outline, Vec::new(), SheetMass { thickness, density: LIME_WOOD_DENSITY, mass });
     // The other leaf consists of two halves, one on either side.
     let half: Polygon = (0..=ROUND / 2).map(|k| corner(k) * MM).map(|p| p.with_x(p.x.max(0.5 * thickness))).collect();
     let half = extrude(&half, &[], thickness, BEVEL);

@@ -10,7 +10,7 @@
 //! R at its ends, so only the plates of a pair can touch.
 
 use super::glb::{Finish, Scene};
-use super::hanging::{HOLE_RADIUS, drawn_plate, hang_by_hole};
+use super::hanging::{HOLE_RADIUS, SheetStock, drawn_plate, hang_by_hole};
 use super::mobile::Mobile;
 use super::outline::{Polygon, area_and_centroid, ellipse};
 use super::piece::{Piece, named};
@@ -219,7 +219,8 @@ fn cut(k: usize, outline: &Outline, stem: f64, thickness: f64, metal: Metal, fin
     let (hanging, _) = hang_by_hole(&drawn, HOLE_INSET);
     let reach = MM * hanging.iter().map(|p| p.x.abs()).fold(0.0, f64::max) + thickness;
     let height = MM * (HOLE_INSET - hanging.iter().map(|p| p.y).fold(0.0, f64::min));
-    let piece = drawn_plate(names, &drawn, HOLE_INSET, stem, (thickness, metal.density(), finish));
+    let stock = SheetStock { thickness, density: metal.density(), finish };
+    let piece = drawn_plate(names, &drawn, HOLE_INSET, stem, stock);
     CutPlate { piece, reach, height }
 }
 
