@@ -124,7 +124,7 @@ pub struct VanePlacement {
     pub radius: f64,
     /// Direction of its long side, rad about z.
     pub angle: f64,
-    /// Angle between its face and the z axis, rad.
+    /// Angle between the normal of its face and the z axis, rad.
     pub pitch: f64,
 }
 
