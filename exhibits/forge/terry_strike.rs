@@ -130,9 +130,9 @@ pub fn peg(name: &'static str, at: DVec3, (low, high): (f64, f64), finish: usize
 
 /// A round arm from one point to another of the piece's plane.
 fn arm(name: &'static str, from: DVec3, to: DVec3, z: f64, finish: usize) -> Part {
-    let way = to - from;
-    let turn = rotation(DVec3::Z * (atan2(way.y, way.x) - 0.5 * PI));
-    let half = 0.5 * way.length();
+    let offset = to - from;
+    let turn = rotation(DVec3::Z * (atan2(offset.y, offset.x) - 0.5 * PI));
+    let half = 0.5 * offset.length();
     part(name, rod(PEG, -half, half), (0.5 * (from + to)).with_z(z), turn, STEEL, finish)
 }
 

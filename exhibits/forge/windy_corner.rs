@@ -95,14 +95,21 @@ fn vent(finishes: &Finishes) -> Piece {
 
 /// The window, which faces the mobile.
 fn window(finishes: &Finishes) -> Piece {
-    let way = DVec3::new(HOOK.x - WINDOW.x, 0.0, HOOK.z - WINDOW.z);
+    let draught = DVec3::new(HOOK.x - WINDOW.x, 0.0, HOOK.z - WINDOW.z);
     let middle = WINDOW.y * DVec2::Y;
     let frame = rectangle(0.19 * DVec2::Y, DVec2::new(0.20, 0.38));
     let opening = rectangle(middle, DVec2::new(0.16, 0.24));
     let frame = extrude(&frame, &[opening], 10.0 * MM, 1.0 * MM);
     Piece {
         name: "Window",
-        parts: vec![part("Frame", frame, DVec3::ZERO, rotation(atan2(way.x, way.z) * DVec3::Y), WOOD, finishes.white)],
+        parts: vec![part(
+            "Frame",
+            frame,
+            DVec3::ZERO,
+            rotation(atan2(draught.x, draught.z) * DVec3::Y),
+            WOOD,
+            finishes.white,
+        )],
         wires: Vec::new(),
         markers: vec![("WindowMiddle", WINDOW.y * DVec3::Y)],
     }

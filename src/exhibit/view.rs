@@ -320,8 +320,8 @@ mod tests {
         assert!((above.eye - 2.0 * DVec3::new(0.0, s, c)).length() < ROUNDING, "{above:?}");
         for turn in [[0.3, -0.1], [-1.0, 0.8]] {
             let turned = view().orbited(turn);
-            let way = |view: &View| (view.eye - view.target).length();
-            assert!((way(&turned) - way(&view())).abs() < ROUNDING && turned.target == view().target);
+            let distance = |view: &View| (view.eye - view.target).length();
+            assert!((distance(&turned) - distance(&view())).abs() < ROUNDING && turned.target == view().target);
             assert_eq!(
                 turned.project(turned.target, 1.5).map(|at| at.map(|x| (x - 0.5).abs() < ROUNDING)),
                 Some([true; 2])

@@ -80,10 +80,10 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
         let (mut open, mut all) = (0.0, 0.0);
         let mut met = Vec::new();
         for d in &directions {
-            let way = t * d.x + b * d.y + normal * d.z;
-            let brightness = light.environment.radiance(way, RAY_MIP_LEVEL).element_sum();
+            let direction = t * d.x + b * d.y + normal * d.z;
+            let brightness = light.environment.radiance(direction, RAY_MIP_LEVEL).element_sum();
             all += brightness;
-            match caster.nearest_hit(place, way) {
+            match caster.nearest_hit(place, direction) {
                 Some(triangle) => met.push(triangle),
                 None => open += brightness,
             }
