@@ -285,7 +285,7 @@ struct Kept {
     open: f64,
 }
 
-/// The clock in the air of the room, which its fly needs, left to itself or (`awake`) disturbed before each step, so that
+/// The clock in the air of the gallery, which its fly needs, left to itself or (`awake`) disturbed before each step, so that
 /// nothing of it sleeps; its pendulum begins with a push (rad/s).
 fn in_the_room(seconds: f64, push: f64, awake: bool) -> Kept {
     let exhibit = shipped();

@@ -1,4 +1,4 @@
-//! The test suite: one binary, one module per room.
+//! The test suite: one binary, one module per subject.
 
 mod architecture;
 mod breath_command;

@@ -9,7 +9,7 @@ use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, add_wrench};
 use soffio_math::{DMat3, DVec3, PI, atan2, rotation};
 use soffio_multibody::articulation::{Anchor, ConstraintKind};
-use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as Laws};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as DynamicsSettings};
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_wind::SurfaceShape;
 use soffio_wind::breath::{Breath, SpreadLaw};
@@ -111,7 +111,7 @@ fn frictionless(exhibit: &Exhibit) -> Dynamics {
         colliders: &[],
         pairs: Vec::new(),
     };
-    let dynamics = Laws {
+    let dynamics = DynamicsSettings {
         gravity: exhibit.gravity,
         friction: false,
         stabilization_time: exhibit.stabilization_time,
