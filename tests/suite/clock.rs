@@ -285,8 +285,8 @@ struct Kept {
     open: f64,
 }
 
-/// The clock in the air of the gallery, which its fly needs, left to itself or (`awake`) disturbed before each step, so that
-/// nothing of it sleeps; its pendulum begins with a push (rad/s).
+/// The clock in the air of the gallery, which its fly needs: left to itself, or (`awake`) disturbed before each step, so
+/// that nothing of it sleeps. Its pendulum begins with a push (rad/s).
 fn in_the_room(seconds: f64, push: f64, awake: bool) -> Kept {
     let exhibit = shipped();
     let index = |name: &str| exhibit.bodies.iter().position(|body| body.name == name).expect("a body");
