@@ -59,7 +59,7 @@ pub fn its_model_reads_back_as_it_was_written(id: &str) {
     assert_eq!(drawn(before).len(), drawn(&after).len(), "{id}");
 }
 
-pub fn what_holds_it_stands_in_its_mujoco_model_or_is_named_as_left_out(id: &str) {
+pub fn its_constraints_are_in_its_mujoco_model_or_named_as_omitted(id: &str) {
     let exhibit = load(id);
     let mjcf::Exported { text, omitted } = mjcf::export(&exhibit);
     let output = |name: &str| {
