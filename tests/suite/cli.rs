@@ -143,7 +143,7 @@ fn a_missing_exhibit_is_named_with_those_there_are() {
 }
 
 #[test]
-fn a_broken_sidecar_is_told_by_file_line_reason_and_remedy() {
+fn a_broken_sidecar_is_reported_with_file_line_reason_and_remedy() {
     for (find, replace, words) in [
         ("[scene]", "[scene", &["exhibit.toml:", "not TOML"][..]),
         ("loss_factor", "loss_facter", &["exhibit.toml:", "unknown key \"loss_facter\"", "\"loss_factor\""]),
@@ -167,7 +167,7 @@ fn a_broken_sidecar_is_told_by_file_line_reason_and_remedy() {
 }
 
 #[test]
-fn a_truncated_model_is_told_where_the_sidecar_names_it() {
+fn a_truncated_model_is_reported_where_the_sidecar_names_it() {
     let desk = Desk::new();
     let folder = desk.spoiled("", "");
     let model = std::fs::read(fish().join("steel-fish.glb")).expect("shipped");
@@ -424,7 +424,7 @@ fn a_run_is_summed_up_in_the_promised_fields_and_leaves_what_was_asked() {
 }
 
 #[test]
-fn the_laws_and_motion_by_places_are_compared_in_numbers_a_table_and_a_picture() {
+fn dynamics_and_position_based_motion_are_compared_in_numbers_a_table_and_a_picture() {
     let desk = Desk::new();
     let breath = fish().join("breaths/strong.wav");
     let exhibit = fish();

@@ -81,7 +81,7 @@ fn a_bent_wire_has_no_light_seam_and_no_blot_where_its_segments_meet() {
 }
 
 #[test]
-fn a_wire_that_points_at_the_eye_is_whole() {
+fn a_wire_that_points_at_the_camera_is_whole() {
     // Segments that are seen along themselves: neither their joints nor the near end may let light through.
     const LIGHT: f32 = 0.05;
     let size = (96, 96);

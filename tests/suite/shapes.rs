@@ -102,7 +102,7 @@ fn a_node_grows_with_what_is_above_it_and_a_body_follows_its_place_alone() {
 }
 
 #[test]
-fn what_is_below_a_body_goes_on_with_the_animation_that_the_body_follows() {
+fn nodes_below_a_body_play_the_animation_that_the_body_follows() {
     let (mut scene, leaf) = leaf();
     let turn = |angle: f32| vec![0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()];
     scene.animate("Idle", leaf, "weights", "STEP", &[(0.0, vec![0.5; 2]), (7.0, vec![0.5; 2])]);
@@ -119,7 +119,7 @@ fn what_is_below_a_body_goes_on_with_the_animation_that_the_body_follows() {
 }
 
 #[test]
-fn broken_key_frames_of_shapes_are_told_where_they_are() {
+fn broken_key_frames_of_shapes_are_reported_with_their_place() {
     let output = |scene: &Scene| {
         let report = exhibit::load(Folder::exhibit(&scene.glb(), "").path()).expect_err("broken");
         report.to_text()

@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_out_is_found_again_within_the_error() {
+    fn omitted_keys_are_interpolated_within_the_error() {
         let positions_at = |i: usize| DVec3::new(0.1 * soffio_math::sin(0.005 * i as f64), 0.0, 0.0);
         let all: Vec<DVec3> = (0..500).map(positions_at).collect();
         let kept = position_keys(&all);

@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_eye_sees_in_the_middle_lies_on_the_cameras_axis() {
+    fn the_centre_of_the_picture_lies_on_the_cameras_axis() {
         let view = View { eye: DVec3::new(1.0, 2.0, 3.0), target: DVec3::new(0.0, 2.0, -1.0), up: DVec3::Y, fovy: 0.5 };
         let text = camera(&view);
         let m: Vec<f64> = text.trim_matches(['[', ']']).split(' ').map(|x| x.parse().expect("a number")).collect();

@@ -224,7 +224,7 @@ fn materials_combine_as_the_model_says_and_filters_keep_apart() {
 }
 
 #[test]
-fn what_cannot_be_said_here_is_told_node_by_node() {
+fn unsupported_content_is_reported_node_by_node() {
     let mut scene = Scene::default();
     let fixed = scene.node("Fixed", [0.0, 2.0, 0.0], None, &[]);
     let mut body = |name: &str, at: f32, own: Value| {

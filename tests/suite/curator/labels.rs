@@ -100,7 +100,7 @@ fn changes_reach_their_places_and_comments_stay() {
 }
 
 #[test]
-fn what_cannot_be_taken_is_refused_all_at_once_with_its_line() {
+fn unusable_rows_are_all_refused_at_once_with_their_lines() {
     let table = "key,en,deutsch,en\ntitle,a,b,c\ncaption.rng,a,b,c\ntitle,d,e,f\nalt,a\n\nmaker,\"a\nb\",c\n";
     let report = refused(table);
     let found: Vec<(usize, &str)> =

@@ -171,7 +171,7 @@ fn a_drawing_becomes_plates_of_its_own_size() {
 }
 
 #[test]
-fn what_is_no_plate_is_refused_where_it_stands() {
+fn an_outline_that_is_no_plate_is_refused_with_its_position() {
     let cases = [
         ("<path id=\"ring\" d=\"M0 0H90V90H0Z M20 20H40V40H20Z\"/>", "holes", "id=\"ring\""),
         ("<path id=\"open\" d=\"M0 0 L90 0 L90 90\"/>", "open line", "close it"),
