@@ -199,7 +199,7 @@ fn gallery(gallery: &Gallery, view: &View) -> String {
     let mut out = format!("  LightSource \"ambientlight\" 1 \"intensity\" [{ambient}]\n");
     let vector = |v: glam::Vec3| list(v.as_dvec3().to_array());
     for (handle, lamp) in (2..).zip(&gallery.lamps) {
-        let [inner, outer] = [lamp.cone.0, lamp.cone.1].map(|cosine| acos(f64::from(cosine)));
+        let [inner, outer] = [lamp.cos_inner, lamp.cos_outer].map(|cosine| acos(f64::from(cosine)));
         // The standard surfaces reflect Kd Cs Cl cos θ, without the π of Lambert's law.
         let intensity = f64::from(lamp.intensity.y) / PI;
         let _ = writeln!(
