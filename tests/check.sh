@@ -76,8 +76,8 @@ long() {
             flashes)    compiled test --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
             # An hour in all; where the fuzzer is not installed it says so.
             fuzz)       tests/fuzz/run.sh ;;
-            hands)      ignored_of_exhibits ::no_handling_breaks_anything_in_twenty_seconds ;;
-            places)     ignored_of_exhibits ::moved_by_places_for_twenty_seconds_it_does_not_fault ;;
+            hands)      ignored_of_exhibits ::grabs_cause_no_fault_in_twenty_seconds ;;
+            places)     ignored_of_exhibits ::position_based_motion_of_twenty_seconds_does_not_fault ;;
             plates)     ignored curator::new::many_plates_hang_level_and_ring_in_a_breath ;;
             blown)      ignored mobiles::ten_minutes_of_hard_breath_tangle_nothing ;;
             cabinet)    ignored cabinet::ten_minutes_of_hard_breath_break_nothing_in_the_cabinet ;;

@@ -5,7 +5,9 @@ use soffio_math::{DQuat, DVec2, DVec3, PI};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::revolve;
-use soffio_authoring::stock_parts::{BRASS, MM, ROUND, WOOD, finishes, part, ring, rod, vane, write, y_to_z};
+use soffio_authoring::stock_parts::{
+    BRASS, MM, ROUND, VanePlacement, WOOD, finishes, part, ring, rod, vane, write, y_to_z,
+};
 
 /// Height of the wheel's centre above the floor, m.
 const MIDDLE: f64 = 300.0 * MM;
@@ -23,7 +25,7 @@ pub fn glb() -> Vec<u8> {
     let size = [67.0 * MM, 26.0 * MM, 1.5 * MM];
     parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
         let finish = if k % 2 == 0 { finishes.white } else { finishes.blue };
-        vane(name, size, 41.5 * MM, PI / 3.0 * k as f64, 0.6, (WOOD, finish))
+        vane(name, size, VanePlacement { radius: 41.5 * MM, angle: PI / 3.0 * k as f64, pitch: 0.6 }, WOOD, finish)
     }));
     let wheel = Piece { name: "Wheel", parts, wires: Vec::new(), markers: Vec::new() };
     // A bowl below it, outside the sphere that the rim can sweep.

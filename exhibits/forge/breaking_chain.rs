@@ -3,7 +3,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hanging::disc;
+use soffio_authoring::hanging::{SheetStock, disc};
 use soffio_authoring::mobile::EYE_STEPS;
 use soffio_authoring::outline::ring;
 use soffio_authoring::piece::{BentWire, Piece};
@@ -49,7 +49,12 @@ pub fn glb() -> Vec<u8> {
         };
         pieces.push((link, hook - PITCH * i as f64 * DVec3::Y));
     }
-    let plate = disc(["Disc", "DiscHook", "DiscStem"], (80.0 * MM, 0.8 * MM), 12.0 * MM, (ALUMINIUM, finishes.white));
+    let plate = disc(
+        ["Disc", "DiscHook", "DiscStem"],
+        80.0 * MM,
+        12.0 * MM,
+        SheetStock { thickness: 0.8 * MM, density: ALUMINIUM, finish: finishes.white },
+    );
     pieces.push((plate, hook - PITCH * LINKS.len() as f64 * DVec3::Y));
     let (eye, target) = (DVec3::new(0.35, 0.36, 1.10), DVec3::new(0.0, 0.25, 0.0));
     write(scene, "Breaking chain", &pieces, eye, target)

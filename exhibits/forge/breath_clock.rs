@@ -19,17 +19,24 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 use super::terry_clock as clock;
 use super::terry_clock::{CANNON, GREAT, HOUR, MINUTE, THIRD, TIP, TOOTH};
 use super::terry_layout::{
-    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, WHEEL, along_z, flat, piece, toward, wheel,
+    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, ToothCounts, WHEEL, along_z, flat, piece,
+    toward, wheel,
 };
 use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::Piece;
 use soffio_authoring::stock_parts::{
-    BRASS, Finishes, LEAD, MM, STEEL, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, y_to_z,
+    BRASS, Finishes, LEAD, MM, STEEL, VanePlacement, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane,
+    y_to_z,
 };
 
 /// Teeth of the winding train, each pair from the slower wheel to the faster pinion.
-pub const WINDING: [(usize, usize); 4] = [(64, 8), (64, 8), (60, 6), (64, 16)];
+pub const WINDING: [ToothCounts; 4] = [
+    ToothCounts { wheel: 64, pinion: 8 },
+    ToothCounts { wheel: 64, pinion: 8 },
+    ToothCounts { wheel: 60, pinion: 6 },
+    ToothCounts { wheel: 64, pinion: 16 },
+];
 /// Direction of each arbor from the previous one, in the plane of the plates.
 const STEPS: [(f64, f64); 4] = [(-0.995, 0.0998), (-0.6, 0.8), (-0.8, 0.6), (-0.94, 0.341_174_442)];
 /// Layers of the winding wheel and of the wheels that drive it.
@@ -47,8 +54,8 @@ const LENGTH: f64 = 290.3010 * MM;
 /// Arbors of the winding train: winding wheel, first, second, third, rotor.
 fn winding_places() -> [DVec3; 5] {
     let mut places = [clock::places()[0]; 5];
-    for (k, ((wheel, pinion), (x, y))) in WINDING.into_iter().zip(STEPS).enumerate() {
-        places[k + 1] = places[k] + 0.5 * MODULE * (wheel + pinion) as f64 * DVec3::new(x, y, 0.0).normalize();
+    for (k, (teeth, (x, y))) in WINDING.into_iter().zip(STEPS).enumerate() {
+        places[k + 1] = places[k] + teeth.center_distance(MODULE) * DVec3::new(x, y, 0.0).normalize();
     }
     places
 }
@@ -58,9 +65,9 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let places = winding_places();
     let wood = finishes.wood;
     let pinion = |k: usize, phase: f64| {
-        let (wheel, teeth) = WINDING[k];
-        let phase = meshing_phase(teeth, wheel, phase, toward(places[k], places[k + 1]));
-        spur_gear(teeth, MODULE, 6.0 * MM, phase, &[])
+        let teeth = WINDING[k];
+        let phase = meshing_phase(teeth.pinion, teeth.wheel, phase, toward(places[k], places[k + 1]));
+        spur_gear(teeth.pinion, MODULE, 6.0 * MM, phase, &[])
     };
     let planet = |name, angle: f64| {
         let out = 13.0 * MM * DVec3::new(soffio_math::cos(angle), soffio_math::sin(angle), 0.0);
@@ -75,11 +82,12 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
             planet("PlanetRight", 0.0),
         ],
     );
-    let winding_wheel = piece("WindingWheel", vec![flat("WindingWheel", wheel(WINDING[0].0, 0.0), WIND, WOOD, wood)]);
+    let winding_wheel =
+        piece("WindingWheel", vec![flat("WindingWheel", wheel(WINDING[0].wheel, 0.0), WIND, WOOD, wood)]);
     let first = piece(
         "WindingFirst",
         vec![
-            flat("WindingFirst", wheel(WINDING[1].0, 0.0), BEHIND, WOOD, wood),
+            flat("WindingFirst", wheel(WINDING[1].wheel, 0.0), BEHIND, WOOD, wood),
             flat("WindingFirstPinion", pinion(0, 0.0), WIND, WOOD, wood),
             along_z("WindingFirstArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
@@ -87,7 +95,7 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let second = piece(
         "WindingSecond",
         vec![
-            flat("WindingSecond", wheel(WINDING[2].0, 0.0), WIND, WOOD, wood),
+            flat("WindingSecond", wheel(WINDING[2].wheel, 0.0), WIND, WOOD, wood),
             flat("WindingSecondPinion", pinion(1, 0.0), BEHIND, WOOD, wood),
             along_z("WindingSecondArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
@@ -95,7 +103,7 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     let third = piece(
         "WindingThird",
         vec![
-            flat("WindingThird", wheel(WINDING[3].0, 0.0), BEHIND, WOOD, wood),
+            flat("WindingThird", wheel(WINDING[3].wheel, 0.0), BEHIND, WOOD, wood),
             flat("WindingThirdPinion", pinion(2, 0.0), WIND, WOOD, wood),
             along_z("WindingThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
@@ -107,8 +115,13 @@ fn winding(finishes: &Finishes) -> Vec<(Piece, DVec3)> {
     ];
     for (k, name) in SAIL_NAMES.into_iter().enumerate() {
         let color = if k % 2 == 0 { finishes.red } else { finishes.blue };
-        let mut sail =
-            vane(name, [66.0 * MM, 34.0 * MM, 0.8 * MM], 42.0 * MM, PI * k as f64 / 3.0, -0.6, (WOOD, color));
+        let mut sail = vane(
+            name,
+            [66.0 * MM, 34.0 * MM, 0.8 * MM],
+            VanePlacement { radius: 42.0 * MM, angle: PI * k as f64 / 3.0, pitch: -0.6 },
+            WOOD,
+            color,
+        );
         sail.place.position.z += SAILS;
         parts.push(sail);
     }
@@ -126,33 +139,33 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     let at = |position: DVec3| Pose { rotation: DQuat::IDENTITY, position };
     let mut pieces: Vec<(Piece, Pose)> = Vec::new();
     let great_wheel = vec![
-        flat("GreatWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
+        flat("GreatWheel", wheel(GREAT.wheel, 0.0), BACK, WOOD, wood),
         along_z("GreatArbor", 3.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     pieces.push((piece("GreatWheel", great_wheel), at(great)));
-    let mut phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(great, minute));
+    let mut phase = meshing_phase(GREAT.pinion, GREAT.wheel, 0.0, toward(great, minute));
     let hand = |name, size, out, z, angle| clock::hand(name, size, out, z, angle, finishes.black);
     let minute_parts = vec![
-        flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
-        flat("MinutePinion", spur_gear(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("MinuteArbor", wheel(MINUTE.wheel, 0.0), MIDDLE, WOOD, wood),
+        flat("MinutePinion", spur_gear(GREAT.pinion, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
-        flat("Cannon", spur_gear(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
+        flat("Cannon", spur_gear(CANNON.wheel, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, wood),
         hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, clock::minute_hand()),
     ];
     pieces.push((piece("MinuteArbor", minute_parts), at(minute)));
-    phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
+    phase = meshing_phase(MINUTE.pinion, MINUTE.wheel, 0.0, toward(minute, third));
     let third_parts = vec![
-        flat("ThirdWheel", wheel(THIRD.0, 0.0), FRONT, WOOD, wood),
-        flat("ThirdPinion", spur_gear(MINUTE.1, MODULE, 6.0 * MM, phase, &[]), MIDDLE, WOOD, wood),
+        flat("ThirdWheel", wheel(THIRD.wheel, 0.0), FRONT, WOOD, wood),
+        flat("ThirdPinion", spur_gear(MINUTE.pinion, MODULE, 6.0 * MM, phase, &[]), MIDDLE, WOOD, wood),
         along_z("ThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     pieces.push((piece("ThirdWheel", third_parts), at(third)));
     let turned_by = clock::escape_phase();
-    phase = meshing_phase(THIRD.1, THIRD.0, 0.0, toward(third, escape)) - turned_by;
+    phase = meshing_phase(THIRD.pinion, THIRD.wheel, 0.0, toward(third, escape)) - turned_by;
     let tooth = DVec3::new(0.0, TIP - 1.5 * MM, ESCAPING);
     let escape_parts = vec![
         flat("EscapeWheel", clock::escape_wheel(), ESCAPING, BRASS, finishes.brass),
-        flat("EscapePinion", spur_gear(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
+        flat("EscapePinion", spur_gear(THIRD.pinion, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, wood),
         along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, wood),
         part("EscapeTooth", rod(TOOTH, -MM, MM), tooth, DQuat::IDENTITY, BRASS, finishes.brass),
     ];
@@ -162,16 +175,16 @@ fn going(finishes: &Finishes) -> Vec<(Piece, Pose)> {
     pieces.push((clock::anchor(finishes), at(pivot)));
     pieces.push((clock::pendulum(finishes, LENGTH, false), at(pivot)));
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-soffio_math::sin(0.9), -soffio_math::cos(0.9), 0.0);
-    phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
+    phase = meshing_phase(CANNON.pinion, CANNON.wheel, 0.0, toward(CENTER, minute_wheel_at));
     let motion_parts = vec![
-        flat("MinuteWheel", spur_gear(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
-        flat("HourPinion", spur_gear(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
+        flat("MinuteWheel", spur_gear(CANNON.pinion, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
+        flat("HourPinion", spur_gear(HOUR.wheel, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
     ];
     pieces.push((piece("MinuteWheel", motion_parts), at(minute_wheel_at)));
-    phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
+    phase = meshing_phase(HOUR.pinion, HOUR.wheel, 0.0, toward(minute_wheel_at, CENTER));
     let bore: Polygon = ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32);
     let hour_parts = vec![
-        flat("HourWheel", spur_gear(HOUR.1, 0.96 * MM, WHEEL, phase, &[bore]), MOTION + 5.0 * MM, WOOD, wood),
+        flat("HourWheel", spur_gear(HOUR.pinion, 0.96 * MM, WHEEL, phase, &[bore]), MOTION + 5.0 * MM, WOOD, wood),
         hand("HourHand", [54.0 * MM, 4.0 * MM], 31.0 * MM, MOTION + 8.0 * MM, clock::hour_hand()),
     ];
     pieces.push((piece("HourWheel", hour_parts), at(CENTER)));

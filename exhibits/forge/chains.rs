@@ -6,7 +6,7 @@
 use soffio_math::{DQuat, DVec3, PI};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hanging::disc;
+use soffio_authoring::hanging::{SheetStock, disc};
 use soffio_authoring::mobile::EYE_STEPS;
 use soffio_authoring::outline::ring;
 use soffio_authoring::piece::{BentWire, Piece};
@@ -79,13 +79,15 @@ struct Chain {
 
 fn light_chain(aside: f64, finishes: &Finishes) -> Chain {
     let names = ["LightDisc", "LightDiscHook", "LightDiscStem"];
-    let disc = disc(names, (64.0 * MM, 1.5 * MM), 12.0 * MM, (WOOD, finishes.white));
+    let disc =
+        disc(names, 64.0 * MM, 12.0 * MM, SheetStock { thickness: 1.5 * MM, density: WOOD, finish: finishes.white });
     Chain { names: &LIGHT, link: light, aside, peg: "LightPeg", hook: "LightHook", disc }
 }
 
 fn heavy_chain(aside: f64, finishes: &Finishes) -> Chain {
     let names = ["HeavyDisc", "HeavyDiscHook", "HeavyDiscStem"];
-    let disc = disc(names, (64.0 * MM, 3.0 * MM), 12.0 * MM, (STEEL, finishes.blue));
+    let disc =
+        disc(names, 64.0 * MM, 12.0 * MM, SheetStock { thickness: 3.0 * MM, density: STEEL, finish: finishes.blue });
     Chain { names: &HEAVY, link: heavy, aside, peg: "HeavyPeg", hook: "HeavyHook", disc }
 }
 

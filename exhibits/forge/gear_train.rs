@@ -6,7 +6,8 @@ use soffio_authoring::glb::Scene;
 use soffio_authoring::outline::ellipse;
 use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::stock_parts::{
-    BRASS, Finishes, LEAD, MM, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, write, y_to_z,
+    BRASS, Finishes, LEAD, MM, VanePlacement, WOOD, finishes, meshing_phase, part, rod, slab, spur_gear, vane, write,
+    y_to_z,
 };
 
 /// Module: pitch diameter over number of teeth, m.
@@ -115,7 +116,13 @@ pub fn glb() -> Vec<u8> {
     pieces[0].0.parts.push(drum);
     for (k, name) in ["Fan1", "Fan2", "Fan3", "Fan4"].into_iter().enumerate() {
         let size = [46.0 * MM, 18.0 * MM, 0.8 * MM];
-        let mut blade = vane(name, size, 28.0 * MM, 0.5 * PI * k as f64, 0.7, (WOOD, finishes.red));
+        let mut blade = vane(
+            name,
+            size,
+            VanePlacement { radius: 28.0 * MM, angle: 0.5 * PI * k as f64, pitch: 0.7 },
+            WOOD,
+            finishes.red,
+        );
         blade.place.position.z += 22.0 * MM;
         pieces[3].0.parts.push(blade);
     }

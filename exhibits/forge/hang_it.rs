@@ -12,7 +12,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hanging::hanging_plate;
+use soffio_authoring::hanging::{PlateSolid, hanging_plate};
 use soffio_authoring::outline::{Polygon, ellipse, open_spline, ring as circle};
 use soffio_authoring::piece::{BentWire, Piece, load, yaw};
 use soffio_authoring::solid::{extrude, revolve};
@@ -52,7 +52,8 @@ fn plate(names: [&'static str; 3], size: DVec2, thickness: f64, color: usize) ->
     let top = DVec2::new(0.0, 3.0 * MM - size.y);
     let hole = ellipse(DVec2::ZERO, DVec2::splat(1.0 * MM), 0.0, 16);
     let outline: Polygon = ellipse(top, size, 0.0, 64);
-    hanging_plate(names, (extrude(&outline, &[hole], thickness, 0.15 * MM), WOOD, color), 34.0 * MM)
+    let solid = extrude(&outline, &[hole], thickness, 0.15 * MM);
+    hanging_plate(names, PlateSolid { solid, density: WOOD, finish: color }, 34.0 * MM)
 }
 
 /// The arm with its loads, and its balance point (b, −h).

@@ -11,7 +11,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hanging::cut_plate;
+use soffio_authoring::hanging::{SheetStock, cut_plate};
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Knot, Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ring};
 use soffio_authoring::piece::{BentWire, Piece, named};
@@ -56,7 +56,8 @@ fn plate(
 ) -> TreeNode {
     let names = [named(name.clone()), named(format!("{name}Hook")), named(format!("{name}Stem"))];
     let mass = weight(&outline, &holes);
-    TreeNode::Plate(cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, mass, finish)), turn)
+    let stock = SheetStock { thickness: SHEET, density: ALUMINIUM, finish };
+    TreeNode::Plate(cut_plate(names, (outline, holes), 3.0, stem * MM, stock, mass), turn)
 }
 
 /// The red plate: a tail of two lobes with a slit between.

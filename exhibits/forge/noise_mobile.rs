@@ -7,7 +7,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hanging::{cut_plate, disc};
+use soffio_authoring::hanging::{SheetStock, cut_plate, disc};
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Knot::Corner, Knot::Smooth, closed_spline, ring};
 use soffio_authoring::piece::{BentWire, Piece, named, yaw};
@@ -57,8 +57,8 @@ fn vane(finish: usize) -> Piece {
         Smooth(32.0, -48.0), Smooth(47.0, -8.0), Smooth(36.0, 22.0), Smooth(22.0, 46.0),
     ];
     let eye = soffio_authoring::outline::ellipse(DVec2::new(2.0, -14.0), DVec2::new(15.0, 19.0), 0.3, 32);
-    let stuff = (1.0 * MM, ALUMINIUM, 27e-3, finish);
-    cut_plate(["Vane", "VaneHook", "VaneStem"], (closed_spline(&knots, 8), vec![eye]), 4.0, 26.0 * MM, stuff)
+    let stock = SheetStock { thickness: 1.0 * MM, density: ALUMINIUM, finish };
+    cut_plate(["Vane", "VaneHook", "VaneStem"], (closed_spline(&knots, 8), vec![eye]), 4.0, 26.0 * MM, stock, 27e-3)
 }
 
 /// The hoop on three spokes, around the hook.
@@ -100,7 +100,8 @@ pub fn glb() -> (Mobile, Vec<u8>) {
         let diameter = LARGEST / pitch.sqrt();
         let [name, hook, stem] = ["", "Hook", "Stem"].map(|end| named(format!("Gong{}{end}", k + 1)));
         let length = LEVEL + RAISED - 0.5 * diameter + HOLE;
-        let gong = disc([name, hook, stem], (diameter, SHEET), length, (BRASS, brass));
+        let stock = SheetStock { thickness: SHEET, density: BRASS, finish: brass };
+        let gong = disc([name, hook, stem], diameter, length, stock);
         stand.markers.push((named(format!("Hoop{}", k + 1)), at));
         pieces.push((gong, Pose { rotation: yaw(angle), position: HOOK + at }));
     }

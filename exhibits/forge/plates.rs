@@ -3,7 +3,7 @@
 use soffio_math::{DVec2, DVec3, PI, Pose};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hanging::disc;
+use soffio_authoring::hanging::{SheetStock, disc};
 use soffio_authoring::mobile::{CascadeBranches, Mobile, cascade};
 use soffio_authoring::stock_parts::{MM, STEEL, bent_rod_stand, finishes};
 
@@ -18,7 +18,8 @@ const LOWER_YAW: f64 = 0.6;
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let plate = |names, diameter, length, finish| disc(names, (diameter, SHEET), length, (STEEL, finish));
+    let stock = |finish| SheetStock { thickness: SHEET, density: STEEL, finish };
+    let plate = |names, diameter, length, finish| disc(names, diameter, length, stock(finish));
     let large = plate(["LargeDisc", "LargeHook", "LargeStem"], 62.0 * MM, 66.0 * MM, finishes.steel);
     let middle = plate(["MiddleDisc", "MiddleHook", "MiddleStem"], 46.0 * MM, 62.0 * MM, finishes.blue);
     let small = plate(["SmallDisc", "SmallHook", "SmallStem"], 36.0 * MM, 70.0 * MM, finishes.red);

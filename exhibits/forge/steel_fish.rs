@@ -18,7 +18,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hanging::{self, HOLE_RADIUS, hanging_plate, to_mass};
+use soffio_authoring::hanging::{self, HOLE_RADIUS, PlateSolid, SheetMass, SheetStock, hanging_plate, to_mass};
 use soffio_authoring::mobile::{Branch, EYE_STEPS, Mobile, STEEL, branch};
 use soffio_authoring::outline::{
     Knot::Corner, Knot::Smooth, area_and_centroid, closed_spline, ellipse, open_spline, ring,
@@ -105,7 +105,8 @@ pub fn glb() -> (Mobile, Vec<u8>) {
 }
 
 fn draw(finishes: &Finishes) -> Mobile {
-    let disc = |names, diameter, length, finish| hanging::disc(names, (diameter, SHEET), length, (ALUMINIUM, finish));
+    let stock = |finish| SheetStock { thickness: SHEET, density: ALUMINIUM, finish };
+    let disc = |names, diameter, length, finish| hanging::disc(names, diameter, length, stock(finish));
     let orange = disc(["OrangeDisc", "OrangeHook", "OrangeStem"], 35.4 * MM, 67.0 * MM, finishes.orange);
     let white = disc(["WhiteDisc", "WhiteHook", "WhiteStem"], 25.8 * MM, 76.0 * MM, finishes.white);
     let b4 = branch(&Branch {
@@ -294,7 +295,7 @@ fn fish_plate() -> Solid {
         hole(-12.0, 17.0, 10.0, 3.4, 0.15),
         hole(17.0, 1.2, 9.0, 2.4, -0.03),
     ];
-    to_mass(outline, holes.to_vec(), SHEET, (STEEL, FISH_MASS))
+    to_mass(outline, holes.to_vec(), SheetMass { thickness: SHEET, density: STEEL, mass: FISH_MASS })
 }
 
 /// The red plate: a wing, its long end towards the discs. The hole is above the centre of mass, so it hangs level.
@@ -310,11 +311,11 @@ fn red_plate(finish: usize) -> Piece {
     // Drawn about the hole, as far above the centre of mass as the sheet allows.
     let from_hole = outline.iter().map(|p| *p - center - DVec2::new(0.0, 9.0)).collect();
     let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS), 0.0, ROUND / 4);
-    let mut solid = to_mass(from_hole, vec![hole], SHEET, (STEEL, RED_MASS));
+    let mut solid = to_mass(from_hole, vec![hole], SheetMass { thickness: SHEET, density: STEEL, mass: RED_MASS });
     // The hole itself moves the centre by some micrometres; correct for them.
     solid = {
         let x = solid.mass(STEEL).center.x;
         solid.translated(DVec3::new(-x, 0.0, 0.0))
     };
-    hanging_plate(["RedPlate", "RedHook", "RedStem"], (solid, STEEL, finish), 84.0 * MM)
+    hanging_plate(["RedPlate", "RedHook", "RedStem"], PlateSolid { solid, density: STEEL, finish }, 84.0 * MM)
 }

@@ -10,14 +10,27 @@ use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::solid::{Solid, extrude, revolve};
 use soffio_authoring::stock_parts::{BRASS, Finishes, MM, ROUND, WOOD, part, ring, rod, slab, y_to_z};
 
-/// The inside: left, right, bottom, top, back and front, m.
-const INSIDE: ([f64; 2], [f64; 2], [f64; 2]) = ([-0.200, 0.220], [0.034, 0.492], [-0.098, 0.050]);
+/// The space inside the case: lowest and highest coordinate along each axis, m.
+#[derive(Clone, Copy)]
+struct Interior {
+    /// Left and right.
+    x: [f64; 2],
+    /// Bottom and top.
+    y: [f64; 2],
+    /// Back and front.
+    z: [f64; 2],
+}
+
+const INSIDE: Interior = Interior { x: [-0.200, 0.220], y: [0.034, 0.492], z: [-0.098, 0.050] };
 /// Thickness of boards, m.
 const BOARD: f64 = 9.0 * MM;
 /// Width of the mouldings, m.
 const LEDGE: f64 = 14.0 * MM;
-/// Chapter ring, and its position in front of the wheels and behind the hands.
-const CHAPTERS: (f64, f64) = (82.0 * MM, 101.0 * MM);
+/// Inner radius of the chapter ring, m.
+const CHAPTERS_INNER: f64 = 82.0 * MM;
+/// Outer radius of the chapter ring, m.
+const CHAPTERS_OUTER: f64 = 101.0 * MM;
+/// Position of the chapter ring, in front of the wheels and behind the hands, m.
 const DIAL: f64 = 10.0 * MM;
 /// Width of the numerals' strokes, m.
 const STROKE: f64 = 1.7 * MM;
@@ -37,14 +50,23 @@ pub fn pieces(scene: &mut Scene, finishes: &Finishes, weights: [DVec3; 2]) -> [P
         paint: add("Dial paint", [0.82, 0.78, 0.66], 0.0, 0.55),
         glass: add("Old glass", [0.95, 0.97, 0.95], 0.0, 0.03),
     };
-    scene.clear(woods.glass, &Glass { wall: 2.0 * MM, ior: 1.52, through: 0.97, color: [0.75, 0.90, 0.82], way: 0.05 });
+    scene.clear(
+        woods.glass,
+        &Glass {
+            wall_thickness: 2.0 * MM,
+            ior: 1.52,
+            transmission: 0.97,
+            attenuation_color: [0.75, 0.90, 0.82],
+            attenuation_distance: 0.05,
+        },
+    );
     let mut parts = boards(&woods);
     parts.extend(pediment(&woods, finishes));
-    for (x, name) in [(INSIDE.0[0], "Left"), (INSIDE.0[1], "Right")] {
+    for (x, name) in [(INSIDE.x[0], "Left"), (INSIDE.x[1], "Right")] {
         parts.extend(pillar(x, name, &woods, finishes));
     }
     for (at, name) in weights.into_iter().zip(["GuideLeft", "GuideRight"]) {
-        let long = rod(2.0 * MM, INSIDE.1[0], INSIDE.1[1]);
+        let long = rod(2.0 * MM, INSIDE.y[0], INSIDE.y[1]);
         parts.push(part(name, long, at.with_y(0.0), DQuat::IDENTITY, BRASS, finishes.steel));
     }
     [piece("Case", parts), piece("Dial", dial(&woods, finishes))]
@@ -60,7 +82,7 @@ fn middle([low, high]: [f64; 2]) -> f64 {
 
 /// Back, bottom, top with their mouldings, feet, and sides with a pane each.
 fn boards(woods: &Woods) -> Vec<Part> {
-    let (x, y, z) = INSIDE;
+    let Interior { x, y, z } = INSIDE;
     let wood = woods.mahogany;
     let level = rotation(0.5 * PI * DVec3::X);
     let outer = size(x) + 2.0 * BOARD;
@@ -111,8 +133,8 @@ fn rectangle(width: f64, height: f64) -> Polygon {
 
 /// A slender turned pillar with brass at both ends, in front of one side.
 fn pillar(x: f64, name: &'static str, woods: &Woods, finishes: &Finishes) -> Vec<Part> {
-    let [low, high] = INSIDE.1;
-    let foot = DVec3::new(x, low, INSIDE.2[1] + 4.0 * MM);
+    let [low, high] = INSIDE.y;
+    let foot = DVec3::new(x, low, INSIDE.z[1] + 4.0 * MM);
     let long = size([low, high]);
     // A column swells slightly below its middle (entasis).
     let shaft: Vec<DVec2> = (0..=24)
@@ -138,7 +160,7 @@ fn pillar(x: f64, name: &'static str, woods: &Woods, finishes: &Finishes) -> Vec
 
 /// Two swan necks that end in rosettes, a plinth between them, and three urns.
 fn pediment(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
-    let (x, y, z) = INSIDE;
+    let Interior { x, y, z } = INSIDE;
     let ground = DVec3::new(middle(x), y[1] + 1.8 * BOARD, z[1] - 2.0 * MM);
     let (far, near, rise, low) = (0.5 * size(x) + BOARD, 46.0 * MM, 56.0 * MM, 9.0 * MM);
     let neck = |side: f64| -> Polygon {
@@ -197,12 +219,13 @@ fn pediment(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
 /// A painted ring with the hours in Roman numerals and a dot for each minute, open in the middle.
 fn dial(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
     let at = CENTER + DIAL * DVec3::Z;
-    let ground = part("ChapterRing", ring(CHAPTERS.0, CHAPTERS.1, 1.6 * MM), at, y_to_z(), WOOD, woods.paint);
+    let ground = part("ChapterRing", ring(CHAPTERS_INNER, CHAPTERS_OUTER, 1.6 * MM), at, y_to_z(), WOOD, woods.paint);
     let mut ink = Solid::default();
     for minute in 0..60 {
         let angle = 0.5 * PI - 2.0 * PI * f64::from(minute) / 60.0;
         let size = if minute % 5 == 0 { 1.1 } else { 0.6 } * MM;
-        let dot = ellipse((CHAPTERS.1 - 2.4 * MM) * DVec2::new(cos(angle), sin(angle)), DVec2::splat(size), 0.0, 16);
+        let dot =
+            ellipse((CHAPTERS_OUTER - 2.4 * MM) * DVec2::new(cos(angle), sin(angle)), DVec2::splat(size), 0.0, 16);
         join(&mut ink, &extrude(&dot, &[], 0.3 * MM, 0.05 * MM));
     }
     for (hour, numeral) in
@@ -211,7 +234,7 @@ fn dial(woods: &Woods, finishes: &Finishes) -> Vec<Part> {
         let angle = -2.0 * PI * hour as f64 / 12.0;
         for stroke in strokes(numeral) {
             // Numerals are upright at twelve and rotate along the ring.
-            let turn = |p: DVec2| DVec2::from_angle(angle).rotate(p + DVec2::Y * (CHAPTERS.0 + 7.6 * MM));
+            let turn = |p: DVec2| DVec2::from_angle(angle).rotate(p + DVec2::Y * (CHAPTERS_INNER + 7.6 * MM));
             join(&mut ink, &extrude(&stroke.into_iter().map(turn).collect(), &[], 0.3 * MM, 0.05 * MM));
         }
     }

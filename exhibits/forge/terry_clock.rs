@@ -28,7 +28,8 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
 use super::terry_layout::{
-    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, WHEEL, along_z, flat, piece, toward, wheel,
+    BACK, CENTER, DRUM, ESCAPING, FRONT, MIDDLE, MODULE, MOTION, SWING, ToothCounts, WHEEL, along_z, flat, piece,
+    toward, wheel,
 };
 use super::{terry_case, terry_strike};
 use soffio_authoring::glb::Scene;
@@ -40,13 +41,13 @@ use soffio_authoring::stock_parts::{
 };
 
 /// Teeth of the wheels and of their pinions.
-pub const GREAT: (usize, usize) = (64, 8);
-pub(crate) const MINUTE: (usize, usize) = (64, 8);
-pub(crate) const THIRD: (usize, usize) = (60, 6);
+pub const GREAT: ToothCounts = ToothCounts { wheel: 64, pinion: 8 };
+pub(crate) const MINUTE: ToothCounts = ToothCounts { wheel: 64, pinion: 8 };
+pub(crate) const THIRD: ToothCounts = ToothCounts { wheel: 60, pinion: 6 };
 pub(crate) const ESCAPE: usize = 42;
 /// Motion work: cannon and minute wheel, its pinion and the hour wheel.
-pub const CANNON: (usize, usize) = (12, 36);
-pub(crate) const HOUR: (usize, usize) = (10, 40);
+pub const CANNON: ToothCounts = ToothCounts { wheel: 12, pinion: 36 };
+pub(crate) const HOUR: ToothCounts = ToothCounts { wheel: 10, pinion: 40 };
 /// R: radius of the circle on which the teeth of the escape wheel end, m.
 pub const TIP: f64 = 22.5 * MM;
 /// Number of teeth that the anchor spans.
@@ -80,11 +81,10 @@ const MINUTES: f64 = 50.0;
 
 /// Positions of the arbors in the plane of the plates, m.
 pub fn places() -> [DVec3; 5] {
-    let apart = |(wheel, pinion): (usize, usize)| 0.5 * MODULE * (wheel + pinion) as f64;
-    let great = CENTER + apart(GREAT) * DVec3::new(-0.6, -0.8, 0.0);
-    let third = CENTER + apart(MINUTE) * DVec3::new(0.6, 0.8, 0.0);
+    let great = CENTER + GREAT.center_distance(MODULE) * DVec3::new(-0.6, -0.8, 0.0);
+    let third = CENTER + MINUTE.center_distance(MODULE) * DVec3::new(0.6, 0.8, 0.0);
     let over = third.x - CENTER.x;
-    let up = (apart(THIRD) * apart(THIRD) - over * over).sqrt();
+    let up = (THIRD.center_distance(MODULE) * THIRD.center_distance(MODULE) - over * over).sqrt();
     let escape = third + DVec3::new(-over, up, 0.0);
     let anchor = escape + DVec3::Y * TIP / cos(half_span());
     [great, CENTER, third, escape, anchor]
@@ -241,29 +241,29 @@ fn going_train(finishes: &Finishes) -> [Placed; 5] {
     let great_wheel = piece(
         "GreatWheel",
         vec![
-            flat("GreatWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
+            flat("GreatWheel", wheel(GREAT.wheel, 0.0), BACK, WOOD, wood),
             along_z("Drum", DRUM - 0.5 * MM, (BACK + 4.0 * MM, BACK + 30.0 * MM), WOOD, wood),
             along_z("GreatArbor", 3.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
     );
-    let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(great, minute));
+    let phase = meshing_phase(GREAT.pinion, GREAT.wheel, 0.0, toward(great, minute));
     let arbor_parts = vec![
-        flat("MinuteArbor", wheel(MINUTE.0, 0.0), MIDDLE, WOOD, wood),
-        flat("MinutePinion", spur_gear(GREAT.1, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("MinuteArbor", wheel(MINUTE.wheel, 0.0), MIDDLE, WOOD, wood),
+        flat("MinutePinion", spur_gear(GREAT.pinion, MODULE, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("CenterArbor", 2.2 * MM, (-48.0 * MM, 18.0 * MM), WOOD, wood),
     ];
-    let phase = meshing_phase(MINUTE.1, MINUTE.0, 0.0, toward(minute, third));
-    let pinion = spur_gear(MINUTE.1, MODULE, 6.0 * MM, phase, &[]);
+    let phase = meshing_phase(MINUTE.pinion, MINUTE.wheel, 0.0, toward(minute, third));
+    let pinion = spur_gear(MINUTE.pinion, MODULE, 6.0 * MM, phase, &[]);
     let third_wheel = piece(
         "ThirdWheel",
         vec![
-            flat("ThirdWheel", wheel(THIRD.0, 0.0), FRONT, WOOD, wood),
+            flat("ThirdWheel", wheel(THIRD.wheel, 0.0), FRONT, WOOD, wood),
             flat("ThirdPinion", pinion, MIDDLE, WOOD, wood),
             along_z("ThirdArbor", 2.0 * MM, (-48.0 * MM, 0.0), WOOD, wood),
         ],
     );
     let turned_by = escape_phase();
-    let phase = meshing_phase(THIRD.1, THIRD.0, 0.0, toward(third, escape)) - turned_by;
+    let phase = meshing_phase(THIRD.pinion, THIRD.wheel, 0.0, toward(third, escape)) - turned_by;
     [
         (great_wheel, at(great)),
         (piece("MinuteArbor", arbor_parts), at(minute)),
@@ -276,7 +276,7 @@ fn going_train(finishes: &Finishes) -> [Placed; 5] {
 /// The cannon sits tight on the arbor, and can still be turned: it carries the hand, the motion work and the strike.
 fn cannon(finishes: &Finishes) -> Piece {
     let cannon_parts = vec![
-        flat("Cannon", spur_gear(CANNON.0, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, finishes.wood),
+        flat("Cannon", spur_gear(CANNON.wheel, MODULE, WHEEL, 0.0, &[]), MOTION, WOOD, finishes.wood),
         hand("MinuteHand", [88.0 * MM, 3.0 * MM], 34.0 * MM, 16.0 * MM, minute_hand(), finishes.black),
         terry_strike::peg(
             "LiftingPin",
@@ -294,7 +294,7 @@ fn escape_piece(finishes: &Finishes, phase: f64) -> Piece {
         "EscapeWheel",
         vec![
             flat("EscapeWheel", escape_wheel(), ESCAPING, BRASS, finishes.brass),
-            flat("EscapePinion", spur_gear(THIRD.1, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, finishes.wood),
+            flat("EscapePinion", spur_gear(THIRD.pinion, MODULE, 6.0 * MM, phase, &[]), FRONT, WOOD, finishes.wood),
             along_z("EscapeArbor", 1.8 * MM, (-48.0 * MM, 14.0 * MM), WOOD, finishes.wood),
             part(
                 "EscapeTooth",
@@ -312,21 +312,27 @@ fn escape_piece(finishes: &Finishes, phase: f64) -> Piece {
 fn motion_work(finishes: &Finishes) -> [Placed; 2] {
     let wood = finishes.wood;
     let minute_wheel_at = CENTER + 24.0 * MM * DVec3::new(-sin(0.9), -cos(0.9), 0.0);
-    let phase = meshing_phase(CANNON.1, CANNON.0, 0.0, toward(CENTER, minute_wheel_at));
+    let phase = meshing_phase(CANNON.pinion, CANNON.wheel, 0.0, toward(CENTER, minute_wheel_at));
     let minute_wheel = piece(
         "MinuteWheel",
         vec![
-            flat("MinuteWheel", spur_gear(CANNON.1, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
-            flat("HourPinion", spur_gear(HOUR.0, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
+            flat("MinuteWheel", spur_gear(CANNON.pinion, MODULE, WHEEL, phase, &[]), MOTION, WOOD, wood),
+            flat("HourPinion", spur_gear(HOUR.wheel, 0.96 * MM, 6.0 * MM, 0.0, &[]), MOTION + 5.0 * MM, WOOD, wood),
         ],
     );
-    let phase = meshing_phase(HOUR.1, HOUR.0, 0.0, toward(minute_wheel_at, CENTER));
+    let phase = meshing_phase(HOUR.pinion, HOUR.wheel, 0.0, toward(minute_wheel_at, CENTER));
     let hour_wheel = piece(
         "HourWheel",
         vec![
             flat(
                 "HourWheel",
-                spur_gear(HOUR.1, 0.96 * MM, WHEEL, phase, &[ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32)]),
+                spur_gear(
+                    HOUR.pinion,
+                    0.96 * MM,
+                    WHEEL,
+                    phase,
+                    &[ellipse(DVec2::ZERO, DVec2::splat(3.0 * MM), 0.0, 32)],
+                ),
                 MOTION + 5.0 * MM,
                 WOOD,
                 wood,

@@ -48,6 +48,22 @@ pub(crate) fn along_z(name: &'static str, radius: f64, (low, high): (f64, f64), 
     part(name, rod(radius, low, high), DVec3::ZERO, y_to_z(), density, finish)
 }
 
+/// Teeth of a wheel and of the pinion that it drives or that drives it.
+#[derive(Clone, Copy)]
+pub struct ToothCounts {
+    /// Teeth of the wheel.
+    pub wheel: usize,
+    /// Teeth of the pinion.
+    pub pinion: usize,
+}
+
+impl ToothCounts {
+    /// Distance of the two arbors, m: half the module times all teeth.
+    pub(crate) fn center_distance(self, module: f64) -> f64 {
+        0.5 * module * (self.wheel + self.pinion) as f64
+    }
+}
+
 /// A piece whose first part is its own node's mesh.
 pub fn piece(name: &'static str, parts: Vec<Part>) -> Piece {
     Piece { name, parts, wires: Vec::new(), markers: Vec::new() }

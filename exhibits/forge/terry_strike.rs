@@ -17,7 +17,7 @@
 
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, cos, rotation, sin};
 
-use super::terry_layout::{BACK, CENTER, DRUM, WHEEL, along_z, flat, piece, toward, wheel};
+use super::terry_layout::{BACK, CENTER, DRUM, ToothCounts, WHEEL, along_z, flat, piece, toward, wheel};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::solid::{Solid, extrude, revolve};
@@ -26,10 +26,10 @@ use soffio_authoring::stock_parts::{
 };
 
 /// Teeth of the wheels and of their pinions.
-pub const GREAT: (usize, usize) = (52, 8);
-pub(crate) const PIN: (usize, usize) = (64, 8);
-pub(crate) const LOCK: (usize, usize) = (72, 6);
-pub(crate) const COUNT: (usize, usize) = (20, 30);
+pub const GREAT: ToothCounts = ToothCounts { wheel: 52, pinion: 8 };
+pub(crate) const PIN: ToothCounts = ToothCounts { wheel: 64, pinion: 8 };
+pub(crate) const LOCK: ToothCounts = ToothCounts { wheel: 72, pinion: 6 };
+pub(crate) const COUNT: ToothCounts = ToothCounts { wheel: 20, pinion: 30 };
 /// Number of pins that lift the hammer.
 pub const PINS: usize = 8;
 /// Strikes of a turn of the count wheel.
@@ -89,13 +89,12 @@ struct ArborPositions {
 }
 
 fn places() -> ArborPositions {
-    let apart = |(wheel, pinion): (usize, usize), module: f64| 0.5 * module * (wheel + pinion) as f64;
     let away = |x: f64, y: f64| DVec3::new(x, y, 0.0).normalize();
     let great = mm(40.0, -32.0);
-    let pin = great + apart(GREAT, MM) * away(0.55, 0.835);
-    let lock = pin + apart(PIN, MM) * away(0.3, 0.954);
-    let fly = lock + apart(LOCK, FINE) * away(0.1, 0.995);
-    let count = great + apart(COUNT, MM) * away(0.6, -0.8);
+    let pin = great + GREAT.center_distance(MM) * away(0.55, 0.835);
+    let lock = pin + PIN.center_distance(MM) * away(0.3, 0.954);
+    let fly = lock + LOCK.center_distance(FINE) * away(0.1, 0.995);
+    let count = great + COUNT.center_distance(MM) * away(0.6, -0.8);
     ArborPositions {
         great,
         pin,
@@ -131,9 +130,9 @@ pub fn peg(name: &'static str, at: DVec3, (low, high): (f64, f64), finish: usize
 
 /// A round arm from one point to another of the piece's plane.
 fn arm(name: &'static str, from: DVec3, to: DVec3, z: f64, finish: usize) -> Part {
-    let way = to - from;
-    let turn = rotation(DVec3::Z * (atan2(way.y, way.x) - 0.5 * PI));
-    let half = 0.5 * way.length();
+    let offset = to - from;
+    let turn = rotation(DVec3::Z * (atan2(offset.y, offset.x) - 0.5 * PI));
+    let half = 0.5 * offset.length();
     part(name, rod(PEG, -half, half), (0.5 * (from + to)).with_z(z), turn, STEEL, finish)
 }
 
@@ -190,10 +189,10 @@ fn great_wheel(finishes: &Finishes) -> Piece {
     piece(
         "StrikeWheel",
         vec![
-            flat("StrikeWheel", wheel(GREAT.0, 0.0), BACK, WOOD, wood),
+            flat("StrikeWheel", wheel(GREAT.wheel, 0.0), BACK, WOOD, wood),
             along_z("StrikeDrum", DRUM - 0.5 * MM, (BACK + 4.0 * MM, BACK + 30.0 * MM), WOOD, wood),
             along_z("StrikeArbor", 3.0 * MM, (-48.0 * MM, 7.0 * MM), WOOD, wood),
-            flat("CountPinion", spur_gear(COUNT.0, MM, WHEEL, 0.0, &[]), COUNT_LAYER, WOOD, wood),
+            flat("CountPinion", spur_gear(COUNT.wheel, MM, WHEEL, 0.0, &[]), COUNT_LAYER, WOOD, wood),
         ],
     )
 }
@@ -207,10 +206,10 @@ fn hammer_met(p: &ArborPositions) -> f64 {
 /// The pin wheel, whose pins lift the hammer.
 fn pin_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let (wood, steel) = (finishes.wood, finishes.steel);
-    let phase = meshing_phase(GREAT.1, GREAT.0, 0.0, toward(p.great, p.pin));
+    let phase = meshing_phase(GREAT.pinion, GREAT.wheel, 0.0, toward(p.great, p.pin));
     let mut parts = vec![
-        flat("PinWheel", wheel(PIN.0, 0.0), PIN_LAYER, WOOD, wood),
-        flat("PinPinion", spur_gear(GREAT.1, MM, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
+        flat("PinWheel", wheel(PIN.wheel, 0.0), PIN_LAYER, WOOD, wood),
+        flat("PinPinion", spur_gear(GREAT.pinion, MM, 6.0 * MM, phase, &[]), BACK, WOOD, wood),
         along_z("PinArbor", 2.2 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     let met = hammer_met(p);
@@ -225,7 +224,7 @@ fn pin_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
 /// The lock wheel with its pin.
 fn lock_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let (wood, steel) = (finishes.wood, finishes.steel);
-    let phase = meshing_phase(PIN.1, PIN.0, 0.0, toward(p.pin, p.lock));
+    let phase = meshing_phase(PIN.pinion, PIN.wheel, 0.0, toward(p.pin, p.lock));
     let holes: Vec<Polygon> = (0..5)
         .map(|k| {
             let angle = 0.4 * PI * f64::from(k) + 0.8;
@@ -235,8 +234,8 @@ fn lock_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
     piece(
         "LockWheel",
         vec![
-            flat("LockWheel", spur_gear(LOCK.0, FINE, WHEEL, 0.0, &holes), LOCK_LAYER, WOOD, wood),
-            flat("LockPinion", spur_gear(PIN.1, MM, 6.0 * MM, phase, &[]), PIN_LAYER, WOOD, wood),
+            flat("LockWheel", spur_gear(LOCK.wheel, FINE, WHEEL, 0.0, &holes), LOCK_LAYER, WOOD, wood),
+            flat("LockPinion", spur_gear(PIN.pinion, MM, 6.0 * MM, phase, &[]), PIN_LAYER, WOOD, wood),
             along_z("LockArbor", 2.0 * MM, (-48.0 * MM, -12.0 * MM), WOOD, wood),
             peg("LockPin", polar(LOCK_PIN, LOCKED), (-20.0 * MM, -13.0 * MM), steel),
         ],
@@ -246,7 +245,7 @@ fn lock_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
 /// The fly: two vanes that the air brakes.
 fn fly(p: &ArborPositions, finishes: &Finishes) -> Piece {
     let (wood, steel) = (finishes.wood, finishes.steel);
-    let phase = meshing_phase(LOCK.1, LOCK.0, 0.0, toward(p.lock, p.fly));
+    let phase = meshing_phase(LOCK.pinion, LOCK.wheel, 0.0, toward(p.lock, p.fly));
     let vane = |name, side: f64| {
         let turn = rotation(0.5 * PI * DVec3::X);
         part(name, slab(36.0 * MM, 18.0 * MM, 0.8 * MM), DVec3::new(26.0 * side, 0.0, -3.0) * MM, turn, WOOD, wood)
@@ -254,7 +253,7 @@ fn fly(p: &ArborPositions, finishes: &Finishes) -> Piece {
     piece(
         "Fly",
         vec![
-            flat("FlyPinion", spur_gear(LOCK.1, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
+            flat("FlyPinion", spur_gear(LOCK.pinion, FINE, 6.0 * MM, phase, &[]), LOCK_LAYER, WOOD, wood),
             along_z("FlyArbor", 1.5 * MM, (-48.0 * MM, 8.0 * MM), STEEL, steel),
             part(
                 "FlyHub",
@@ -273,12 +272,12 @@ fn fly(p: &ArborPositions, finishes: &Finishes) -> Piece {
 /// The count wheel with the hours' raised rims, after `hour` has been struck.
 fn count_wheel(p: &ArborPositions, finishes: &Finishes, hour: usize) -> Piece {
     let wood = finishes.wood;
-    let phase = meshing_phase(COUNT.1, COUNT.0, 0.0, toward(p.great, p.count));
+    let phase = meshing_phase(COUNT.pinion, COUNT.wheel, 0.0, toward(p.great, p.count));
     let disc =
         revolve(&[(0.0, -2.0), (42.0, -2.0), (42.0, 2.0), (0.0, 2.0)].map(|(r, y)| DVec2::new(r, y) * MM), 2 * ROUND);
     let mut parts = vec![
         part("CountDisc", disc, DVec3::Z * COUNT_LAYER, y_to_z(), WOOD, wood),
-        flat("CountGear", spur_gear(COUNT.1, MM, WHEEL, phase, &[]), COUNT_LAYER - 4.2 * MM, WOOD, wood),
+        flat("CountGear", spur_gear(COUNT.pinion, MM, WHEEL, phase, &[]), COUNT_LAYER - 4.2 * MM, WOOD, wood),
     ];
     let now = (hour * (hour + 1) / 2) as f64;
     for (k, name) in RISES.into_iter().enumerate() {

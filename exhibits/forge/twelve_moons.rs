@@ -7,7 +7,7 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::hanging::cut_plate;
+use soffio_authoring::hanging::{SheetStock, cut_plate};
 use soffio_authoring::mobile::Mobile;
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Piece, named};
@@ -71,7 +71,8 @@ fn moon(k: usize, [diameter, mass, stem]: [f64; 3], finish: usize) -> Piece {
     let radius = 0.5 * diameter;
     let outline = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.5 * PI, ROUND);
     let holes = shadow(radius, k as f64 / 11.5).into_iter().collect();
-    cut_plate(names, (outline, holes), 3.0, stem * MM, (SHEET, ALUMINIUM, 1e-3 * mass, finish))
+    let stock = SheetStock { thickness: SHEET, density: ALUMINIUM, finish };
+    cut_plate(names, (outline, holes), 3.0, stem * MM, stock, 1e-3 * mass)
 }
 
 /// Designs, balances and writes the model.

@@ -5,7 +5,9 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, rotation};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::revolve;
-use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, ring, rod, slab, vane, y_to_z};
+use soffio_authoring::stock_parts::{
+    BRASS, MM, ROUND, STEEL, VanePlacement, WOOD, finishes, part, ring, rod, slab, vane, y_to_z,
+};
 
 /// Height of both shafts, and the angle between them, rad.
 const SHAFT: f64 = 200.0 * MM;
@@ -27,7 +29,13 @@ pub fn glb() -> Vec<u8> {
     ];
     for (k, name) in ["Vane1", "Vane2", "Vane3", "Vane4"].into_iter().enumerate() {
         let size = [74.0 * MM, 34.0 * MM, 1.0 * MM];
-        let mut blade = vane(name, size, 46.0 * MM, 0.5 * PI * k as f64, 0.6, (WOOD, finishes.blue));
+        let mut blade = vane(
+            name,
+            size,
+            VanePlacement { radius: 46.0 * MM, angle: 0.5 * PI * k as f64, pitch: 0.6 },
+            WOOD,
+            finishes.blue,
+        );
         blade.place.position.z += ROTOR;
         parts.push(blade);
     }

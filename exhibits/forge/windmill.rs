@@ -5,7 +5,9 @@ use soffio_math::{DQuat, DVec2, DVec3, PI, rotation};
 use soffio_authoring::glb::Scene;
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::revolve;
-use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, vane, write, y_to_z};
+use soffio_authoring::stock_parts::{
+    BRASS, MM, ROUND, STEEL, VanePlacement, WOOD, finishes, part, rod, slab, vane, write, y_to_z,
+};
 
 /// Height of the shaft above the floor.
 const SHAFT: f64 = 330.0 * MM;
@@ -49,7 +51,13 @@ pub fn glb() -> Vec<u8> {
     let mut parts = vec![part("Hub", rod(8.0 * MM, -6.0 * MM, 8.0 * MM), none, y_to_z(), BRASS, finishes.brass)];
     parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
         let size = [82.0 * MM, 30.0 * MM, 1.0 * MM];
-        vane(name, size, 49.0 * MM, 0.5 * PI * k as f64, 0.6, (WOOD, finishes.blue))
+        vane(
+            name,
+            size,
+            VanePlacement { radius: 49.0 * MM, angle: 0.5 * PI * k as f64, pitch: 0.6 },
+            WOOD,
+            finishes.blue,
+        )
     }));
     let rotor = Piece { name: "Rotor", parts, wires: Vec::new(), markers: Vec::new() };
     let top = SHAFT * DVec3::Y;

@@ -3,13 +3,13 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, atan2, rotation};
 
 use soffio_authoring::glb::Scene;
-use soffio_authoring::hanging::{HOLE_RADIUS, hanging_plate};
+use soffio_authoring::hanging::{HOLE_RADIUS, PlateSolid, hanging_plate};
 use soffio_authoring::mobile::{CascadeBranches, Mobile, cascade};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{extrude, revolve};
 use soffio_authoring::stock_parts::{
-    BRASS, Finishes, MM, ROUND, STEEL, WOOD, bent_rod_stand, finishes, part, ring, rod, vane, y_to_z,
+    BRASS, Finishes, MM, ROUND, STEEL, VanePlacement, WOOD, bent_rod_stand, finishes, part, ring, rod, vane, y_to_z,
 };
 
 /// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
@@ -36,7 +36,8 @@ fn strip(names: [&'static str; 3], size: [f64; 2], stem: f64, finish: usize) -> 
     let (inset, radius) = (4.0 * MM, HOLE_RADIUS * MM);
     let outline = rectangle((inset - 0.5 * size[1]) * DVec2::Y, size.into());
     let hole = ellipse(DVec2::ZERO, DVec2::splat(radius), 0.0, ROUND / 4);
-    hanging_plate(names, (extrude(&outline, &[hole], THICKNESS, 0.2 * THICKNESS), CARD, finish), stem)
+    let solid = extrude(&outline, &[hole], THICKNESS, 0.2 * THICKNESS);
+    hanging_plate(names, PlateSolid { solid, density: CARD, finish }, stem)
 }
 
 /// The post on which the pinwheel turns.
@@ -64,7 +65,13 @@ fn pinwheel(finishes: &Finishes) -> Piece {
     parts.extend(VANES.into_iter().enumerate().map(|(k, name)| {
         let size = [44.0 * MM, 26.0 * MM, 1.0 * MM];
         let finish = if k % 2 == 0 { finishes.red } else { finishes.white };
-        vane(name, size, 28.0 * MM, 2.0 * PI * k as f64 / VANES.len() as f64, 0.7, (WOOD, finish))
+        vane(
+            name,
+            size,
+            VanePlacement { radius: 28.0 * MM, angle: 2.0 * PI * k as f64 / VANES.len() as f64, pitch: 0.7 },
+            WOOD,
+            finish,
+        )
     }));
     Piece { name: "Pinwheel", parts, wires: Vec::new(), markers: Vec::new() }
 }
@@ -88,14 +95,21 @@ fn vent(finishes: &Finishes) -> Piece {
 
 /// The window, which faces the mobile.
 fn window(finishes: &Finishes) -> Piece {
-    let way = DVec3::new(HOOK.x - WINDOW.x, 0.0, HOOK.z - WINDOW.z);
+    let draught = DVec3::new(HOOK.x - WINDOW.x, 0.0, HOOK.z - WINDOW.z);
     let middle = WINDOW.y * DVec2::Y;
     let frame = rectangle(0.19 * DVec2::Y, DVec2::new(0.20, 0.38));
     let opening = rectangle(middle, DVec2::new(0.16, 0.24));
     let frame = extrude(&frame, &[opening], 10.0 * MM, 1.0 * MM);
     Piece {
         name: "Window",
-        parts: vec![part("Frame", frame, DVec3::ZERO, rotation(atan2(way.x, way.z) * DVec3::Y), WOOD, finishes.white)],
+        parts: vec![part(
+            "Frame",
+            frame,
+            DVec3::ZERO,
+            rotation(atan2(draught.x, draught.z) * DVec3::Y),
+            WOOD,
+            finishes.white,
+        )],
         wires: Vec::new(),
         markers: vec![("WindowMiddle", WINDOW.y * DVec3::Y)],
     }

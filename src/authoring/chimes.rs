@@ -7,30 +7,34 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
 use super::glb::{Finish, Glass, Scene};
-use super::hanging::{BEVEL, to_mass};
+use super::hanging::{BEVEL, SheetMass, to_mass};
 use super::outline::{Polygon, area_and_centroid, ring};
 use super::piece::{BentWire, Piece, load, named};
 use super::solid::{Solid, extrude, revolve, revolve_ring};
 use super::stock_parts::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
 
 /// Height of the crown's hook, m.
-const HOOK: f64 = 1.26;
+const HOOK_HEIGHT: f64 = 1.26;
 /// Height of the crown's ring above its underside, m.
-const BRIDLE: f64 = 105.0 * MM;
-/// Points where tubes hang and are struck, as fractions of their length from the upper end.
-const PIN: f64 = 0.2242;
-const STRUCK: f64 = 0.6;
+const BRIDLE_HEIGHT: f64 = 105.0 * MM;
+/// Point where a tube hangs, as a fraction of its length from the upper end: a node of its first bending mode.
+const HANGING_FRACTION: f64 = 0.2242;
+/// Point where a tube is struck, as a fraction of its length from the upper end.
+const STRIKE_FRACTION: f64 = 0.6;
 /// Least gap between the crown and a tube, m.
-const HEADROOM: f64 = 34.0 * MM;
-/// Radius (m) and mass (kg) of the striker, and gap between its rim and the tubes (m).
-const STRIKER: f64 = 40.0 * MM;
+const CROWN_CLEARANCE: f64 = 34.0 * MM;
+/// Radius of the striker, m.
+const STRIKER_RADIUS: f64 = 40.0 * MM;
+/// Mass of the striker, kg.
 const STRIKER_MASS: f64 = 60e-3;
-const GAP: f64 = 13.5 * MM;
-/// Distance from the striker to the middle of the sail, m, and mass of the sail, kg.
-const SAIL_LINE: f64 = 0.5;
+/// Gap between the striker's rim and the tubes, m.
+const STRIKER_GAP: f64 = 13.5 * MM;
+/// Distance from the striker to the middle of the sail, m.
+const SAIL_DISTANCE: f64 = 0.5;
+/// Mass of the sail, kg.
 const SAIL_MASS: f64 = 10e-3;
 /// Density of the sail's wood, kg/m³.
-const LIME_WOOD: f64 = 530.0;
+const LIME_WOOD_DENSITY: f64 = 530.0;
 
 /// Design of a wind chime.
 pub struct ChimeDesign<'a> {
@@ -79,7 +83,13 @@ pub const GLASS: ChimeDesign<'static> = ChimeDesign {
     tube: [20.0, 1.8],
     density: 2500.0,
     tubes: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
-    glass: Some(Glass { wall: 1.8 * MM, ior: 1.52, through: 0.96, color: [0.36, 0.74, 0.70], way: 0.012 }),
+    glass: Some(Glass {
+        wall_thickness: 1.8 * MM,
+        ior: 1.52,
+        transmission: 0.96,
+        attenuation_color: [0.36, 0.74, 0.70],
+        attenuation_distance: 0.012,
+    }),
     sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
 };
 
@@ -92,7 +102,7 @@ struct FinishIndices {
 
 /// Distance from the crown's underside down to the strike height, m.
 fn drop(design: &ChimeDesign) -> f64 {
-    STRUCK * design.lengths[0] * MM + HEADROOM
+    STRIKE_FRACTION * design.lengths[0] * MM + CROWN_CLEARANCE
 }
 
 /// A tube of `length` along y about the origin.
@@ -143,10 +153,10 @@ fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndic
     for (k, name) in ["BridleA", "BridleB", "BridleC"].into_iter().enumerate() {
         let angle = 2.0 * PI * (k as f64 / 3.0 + 0.06);
         let out = (rim - 20.0) * MM;
-        let foot = aside + DVec3::new(out * cos(angle), top * MM - BRIDLE, out * sin(angle));
+        let foot = aside + DVec3::new(out * cos(angle), top * MM - BRIDLE_HEIGHT, out * sin(angle));
         wires.push(BentWire { name, points: vec![-8.0 * MM * DVec3::Y, foot], radius: 0.7 * MM, density: 1150.0 });
     }
-    let under = aside - BRIDLE * DVec3::Y;
+    let under = aside - BRIDLE_HEIGHT * DVec3::Y;
     let mut markers = vec![("CrownHook", DVec3::ZERO), ("CrownMiddle", under)];
     for (k, at) in places(design.lengths.len(), circle).into_iter().enumerate() {
         markers.push((named(format!("CrownHole{}", k + 1)), under + at));
@@ -170,10 +180,16 @@ fn places(count: usize, circle: f64) -> Vec<DVec3> {
 
 /// The striker on its line, which continues to the sail.
 fn striker(drop: f64, finishes: &FinishIndices) -> Piece {
-    let height = STRIKER_MASS / (WOOD * PI * STRIKER * STRIKER);
+    let height = STRIKER_MASS / (WOOD * PI * STRIKER_RADIUS * STRIKER_RADIUS);
     let (h, edge) = (0.5 * height, 1.5 * MM);
-    let profile =
-        [(0.0, -h), (STRIKER - edge, -h), (STRIKER, edge - h), (STRIKER, h - edge), (STRIKER - edge, h), (0.0, h)];
+    let profile = [
+        (0.0, -h),
+        (STRIKER_RADIUS - edge, -h),
+        (STRIKER_RADIUS, edge - h),
+        (STRIKER_RADIUS, h - edge),
+        (STRIKER_RADIUS - edge, h),
+        (0.0, h),
+    ];
     let disc = revolve(&profile.map(|(r, y)| DVec2::new(r, y)), 2 * ROUND);
     Piece {
         name: "Striker",
@@ -196,14 +212,14 @@ fn sail(finishes: &FinishIndices) -> Piece {
     let outline: Polygon = (0..ROUND).map(corner).collect();
     let area = area_and_centroid(&outline).0 * MM * MM;
     let mass = 0.5 * SAIL_MASS;
-    let thickness = mass / (LIME_WOOD * area);
-    let solid = to_mass(outline, Vec::new(), thickness, (LIME_WOOD, mass));
+    let thickness = mass / (LIME_WOOD_DENSITY * area);
+    let solid = to_mass(outline, Vec::new(), SheetMass { thickness, density: LIME_WOOD_DENSITY, mass });
     // The other leaf consists of two halves, one on either side.
     let half: Polygon = (0..=ROUND / 2).map(|k| corner(k) * MM).map(|p| p.with_x(p.x.max(0.5 * thickness))).collect();
     let half = extrude(&half, &[], thickness, BEVEL);
-    let middle = -SAIL_LINE * DVec3::Y;
+    let middle = -SAIL_DISTANCE * DVec3::Y;
     let about = |quarters: f64| rotation(0.5 * PI * quarters * DVec3::Y);
-    let leaf = |name, solid, place, turn| part(name, solid, place, turn, LIME_WOOD, finishes.sail);
+    let leaf = |name, solid, place, turn| part(name, solid, place, turn, LIME_WOOD_DENSITY, finishes.sail);
     let leaves = vec![
         leaf("Sail", solid.translated(middle), DVec3::ZERO, DQuat::IDENTITY),
         leaf("SailFront", half.clone(), middle, about(-1.0)),
@@ -212,7 +228,7 @@ fn sail(finishes: &FinishIndices) -> Piece {
     Piece {
         name: "Sail",
         parts: leaves,
-        wires: vec![line("SailLine", SAIL_LINE - y * MM)],
+        wires: vec![line("SailLine", SAIL_DISTANCE - y * MM)],
         markers: vec![("SailHook", DVec3::ZERO)],
     }
 }
@@ -234,14 +250,14 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
     if let Some(glass) = &design.glass {
         scene.clear(finishes.tubes, glass);
     }
-    let circle = STRIKER + GAP + 0.5 * design.tube[0] * MM;
-    let (top, drop) = (HOOK * DVec3::Y, drop(design));
+    let circle = STRIKER_RADIUS + STRIKER_GAP + 0.5 * design.tube[0] * MM;
+    let (top, drop) = (HOOK_HEIGHT * DVec3::Y, drop(design));
     let lengths = design.lengths.iter().map(|length| length * MM);
     let hanging: Vec<(Piece, Piece, f64)> = (1..)
         .zip(lengths)
         .map(|(k, length)| {
-            let down = drop - (STRUCK - PIN) * length;
-            let middle = (PIN - 0.5) * length * DVec3::Y;
+            let down = drop - (STRIKE_FRACTION - HANGING_FRACTION) * length;
+            let middle = (HANGING_FRACTION - 0.5) * length * DVec3::Y;
             let pipe = tube(design.tube, length);
             let own = part(named(format!("Pipe{k}")), pipe, middle, DQuat::IDENTITY, design.density, finishes.tubes);
             let markers = vec![(named(format!("Pin{k}")), DVec3::ZERO)];
@@ -260,7 +276,7 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
         whole = whole.combine(&load(striker.mass().mass + sail.mass().mass, aside));
         aside - DVec3::new(whole.center.x, 0.0, whole.center.z)
     });
-    let under = top + aside - BRIDLE * DVec3::Y;
+    let under = top + aside - BRIDLE_HEIGHT * DVec3::Y;
     let mut pieces = vec![(ceiling(finishes.iron), top), (crown(design, circle, aside, &finishes), top)];
     for ((cord, tube, down), at) in hanging.into_iter().zip(places) {
         pieces.push((cord, under + at));

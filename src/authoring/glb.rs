@@ -32,15 +32,15 @@ pub struct Finish {
 #[derive(Clone, Copy, Debug)]
 pub struct Glass {
     /// Thickness of the wall, m.
-    pub wall: f64,
+    pub wall_thickness: f64,
     /// Index of refraction.
     pub ior: f64,
     /// Transmitted fraction of the light, 0…1.
-    pub through: f64,
-    /// Attenuation colour: what white light becomes after the distance `way`, linear RGB.
-    pub color: [f64; 3],
+    pub transmission: f64,
+    /// Attenuation colour: what white light becomes after `attenuation_distance`, linear RGB.
+    pub attenuation_color: [f64; 3],
     /// Attenuation distance, m.
-    pub way: f64,
+    pub attenuation_distance: f64,
 }
 
 /// A glTF scene under construction.
@@ -98,11 +98,15 @@ impl Scene {
 
     /// Makes a finish transparent, as the wall of a glass body.
     pub fn clear(&mut self, finish: usize, glass: &Glass) {
-        let Glass { wall, ior, through, color, way } = glass;
+        let Glass { wall_thickness, ior, transmission, attenuation_color, attenuation_distance } = glass;
         self.materials[finish]["extensions"] = json!({
             "KHR_materials_ior": { "ior": ior },
-            "KHR_materials_transmission": { "transmissionFactor": through },
-            "KHR_materials_volume": { "attenuationColor": color, "attenuationDistance": way, "thicknessFactor": wall },
+            "KHR_materials_transmission": { "transmissionFactor": transmission },
+            "KHR_materials_volume": {
+                "attenuationColor": attenuation_color,
+                "attenuationDistance": attenuation_distance,
+                "thicknessFactor": wall_thickness,
+            },
         });
     }
 

@@ -18,6 +18,39 @@ const HOLE_INSET: f64 = 2.4;
 /// Radius of the hole by which a plate hangs, mm.
 pub const HOLE_RADIUS: f64 = 1.0;
 
+/// Sheet from which plates are cut.
+#[derive(Clone, Copy, Debug)]
+pub struct SheetStock {
+    /// Thickness, m.
+    pub thickness: f64,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Index of the finish.
+    pub finish: usize,
+}
+
+/// What a finished plate is to weigh.
+#[derive(Clone, Copy, Debug)]
+pub struct SheetMass {
+    /// Thickness of the sheet, m.
+    pub thickness: f64,
+    /// Density of the sheet, kg/m³.
+    pub density: f64,
+    /// Mass of the plate, kg.
+    pub mass: f64,
+}
+
+/// A plate with the matter and the look of its sheet.
+#[derive(Clone, Debug)]
+pub struct PlateSolid {
+    /// Shape, the origin at the hole by which it hangs.
+    pub solid: Solid,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Index of the finish.
+    pub finish: usize,
+}
+
 /// A stem that hangs by its eye from the origin straight down to `length` m; it ends in a small eye through a plate.
 fn stem(name: &'static str, length: f64) -> BentWire {
     let (radius, eye, foot) = (0.3 * MM, 1.6 * MM, 1.2 * MM);
@@ -27,11 +60,11 @@ fn stem(name: &'static str, length: f64) -> BentWire {
     BentWire { name, points, radius, density: STEEL }
 }
 
-/// A plate (solid, density, finish) on a stem: the hole of the plate is at the stem's foot, `length` m below the hook.
+/// A plate on a stem: the hole of the plate is at the stem's foot, `length` m below the hook.
 /// `names` are those of the piece, its hook and its stem.
-pub fn hanging_plate(names: [&'static str; 3], plate: (Solid, f64, usize), length: f64) -> Piece {
+pub fn hanging_plate(names: [&'static str; 3], plate: PlateSolid, length: f64) -> Piece {
     let [name, hook, stem_name] = names;
-    let (solid, density, finish) = plate;
+    let PlateSolid { solid, density, finish } = plate;
     Piece {
         name,
         parts: vec![Part { name, solid: solid.translated(-length * DVec3::Y), place: Pose::IDENTITY, density, finish }],
@@ -40,16 +73,18 @@ pub fn hanging_plate(names: [&'static str; 3], plate: (Solid, f64, usize), lengt
     }
 }
 
-/// A disc (diameter and thickness, m) on a stem of `length` m; `stuff` is its density and finish.
-pub fn disc(names: [&'static str; 3], (diameter, thickness): (f64, f64), length: f64, stuff: (f64, usize)) -> Piece {
+/// A disc of `diameter` m on a stem of `length` m, cut from `stock`.
+pub fn disc(names: [&'static str; 3], diameter: f64, length: f64, stock: SheetStock) -> Piece {
     let radius = 0.5 * diameter;
     let hole = ellipse(DVec2::ZERO, DVec2::splat(HOLE_RADIUS * MM), 0.0, ROUND / 4);
     let outline = ellipse(DVec2::new(0.0, HOLE_INSET * MM - radius), DVec2::splat(radius), 0.5 * PI, ROUND);
-    hanging_plate(names, (extrude(&outline, &[hole], thickness, BEVEL), stuff.0, stuff.1), length)
+    let SheetStock { thickness, density, finish } = stock;
+    hanging_plate(names, PlateSolid { solid: extrude(&outline, &[hole], thickness, BEVEL), density, finish }, length)
 }
 
-/// Scales outline and holes, in mm, so that the finished sheet (thickness in m) has this density and mass.
-pub fn to_mass(outline: Polygon, holes: Vec<Polygon>, thickness: f64, (density, mass): (f64, f64)) -> Solid {
+/// A plate of outline and holes, in mm, scaled so that it has the mass that `sheet` gives.
+pub fn to_mass(outline: Polygon, holes: Vec<Polygon>, sheet: SheetMass) -> Solid {
+    let SheetMass { thickness, density, mass } = sheet;
     let cut = |scale: f64| {
         let size = |polygon: &Polygon| polygon.iter().map(|p| *p * scale * MM).collect();
         extrude(&size(&outline), &holes.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL)
@@ -85,36 +120,41 @@ pub fn hang_by_hole((outline, holes): &(Polygon, Vec<Polygon>), inset: f64) -> (
 }
 
 /// A plate of this mass on a stem, cut from an outline and holes in mm: it hangs by a hole `inset` mm below its upper
-/// edge, straight above its centroid. The tuple is thickness, density, mass of plate and stem, and finish.
+/// edge, straight above its centroid. `mass`, in kg, is that of plate and stem together.
 pub fn cut_plate(
     names: [&'static str; 3],
     drawn: (Polygon, Vec<Polygon>),
     inset: f64,
     length: f64,
-    (thickness, density, mass, finish): (f64, f64, f64, usize),
+    stock: SheetStock,
+    mass: f64,
 ) -> Piece {
     let (outline, cuts) = hang_by_hole(&drawn, inset);
     let stem_wire = stem(names[2], length);
     let stem_mass = wire_mass(&stem_wire.points, stem_wire.radius, stem_wire.density).mass;
-    plumb(names, to_mass(outline, cuts, thickness, (density, mass - stem_mass)), length, (density, finish))
+    let SheetStock { thickness, density, finish } = stock;
+    let solid = to_mass(outline, cuts, SheetMass { thickness, density, mass: mass - stem_mass });
+    plumb(names, PlateSolid { solid, density, finish }, length)
 }
 
-/// A plate in the size of its drawing, else as [`cut_plate`]; the tuple is thickness, density and finish.
+/// A plate in the size of its drawing, else as [`cut_plate`].
 pub fn drawn_plate(
     names: [&'static str; 3],
     drawn: &(Polygon, Vec<Polygon>),
     inset: f64,
     length: f64,
-    (thickness, density, finish): (f64, f64, usize),
+    stock: SheetStock,
 ) -> Piece {
     let (outline, cuts) = hang_by_hole(drawn, inset);
     let size = |polygon: &Polygon| polygon.iter().map(|p| *p * MM).collect::<Polygon>();
+    let SheetStock { thickness, density, finish } = stock;
     let solid = extrude(&size(&outline), &cuts.iter().map(size).collect::<Vec<_>>(), thickness, BEVEL);
-    plumb(names, solid, length, (density, finish))
+    plumb(names, PlateSolid { solid, density, finish }, length)
 }
 
 /// A plate on its stem with its centre of mass exactly below its hole: bevels move it by micrometres.
-fn plumb(names: [&'static str; 3], solid: Solid, length: f64, (density, finish): (f64, usize)) -> Piece {
-    let aside = solid.mass(density).center.x;
-    hanging_plate(names, (solid.translated(DVec3::new(-aside, 0.0, 0.0)), density, finish), length)
+fn plumb(names: [&'static str; 3], mut plate: PlateSolid, length: f64) -> Piece {
+    let offset = plate.solid.mass(plate.density).center.x;
+    plate.solid = plate.solid.translated(DVec3::new(-offset, 0.0, 0.0));
+    hanging_plate(names, plate, length)
 }

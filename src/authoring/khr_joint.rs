@@ -29,12 +29,36 @@ const ZERO_LIMIT: f64 = 1e-9;
 /// The limits of a joint.
 #[derive(Default)]
 struct Limits {
-    /// Locked linear and angular axes.
-    linear: [bool; 3],
-    angular: [bool; 3],
-    /// Axis, least and greatest value of each range.
-    ways: Vec<(usize, Option<f64>, Option<f64>)>,
-    turns: Vec<(usize, Option<f64>, Option<f64>)>,
+    /// Limits of the displacements.
+    linear: AxisLimits,
+    /// Limits of the rotations.
+    angular: AxisLimits,
+}
+
+/// The limits along, or about, the three axes.
+#[derive(Default)]
+struct AxisLimits {
+    /// Is the axis locked?
+    locked: [bool; 3],
+    /// Ranges of axes that are not locked.
+    ranges: Vec<AxisRange>,
+}
+
+/// The range of one axis; `None` where it has no bound.
+struct AxisRange {
+    axis: usize,
+    min: Option<f64>,
+    max: Option<f64>,
+}
+
+impl AxisLimits {
+    fn locked_axes(&self) -> Vec<usize> {
+        (0..3).filter(|&axis| self.locked[axis]).collect()
+    }
+
+    fn free_axes(&self) -> Vec<usize> {
+        (0..3).filter(|&axis| !self.locked[axis]).collect()
+    }
 }
 
 fn axes(limit: &Value, key: &str) -> Vec<usize> {
@@ -69,7 +93,7 @@ pub(super) fn convert_joint(reader: &mut Reader, node: usize, joint: &Value) {
         reader.remark(node, format_args!("its two frames are {gap:.6} m apart: they are closed at the start"));
         reader.out.joints_open = true;
     }
-    if turn > 1e3 * SAME_POINT && limits.angular.iter().any(|locked| *locked) {
+    if turn > 1e3 * SAME_POINT && limits.angular.locked.iter().any(|locked| *locked) {
         let degrees = turn * 180.0 / PI;
         reader.remark(node, format_args!("its two frames differ by {degrees:.3}°: this angle is kept"));
     }
@@ -94,12 +118,11 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
             // A distance in a plane or in space has no sign: its least value is zero.
             let least = if on.len() > 1 { min.unwrap_or(0.0) } else { min.unwrap_or(f64::NEG_INFINITY) };
             let greatest = max.unwrap_or(f64::INFINITY);
+            let axis_limits = if angular { &mut limits.angular } else { &mut limits.linear };
             if least.abs() < ZERO_LIMIT && greatest.abs() < ZERO_LIMIT {
-                let locked = if angular { &mut limits.angular } else { &mut limits.linear };
-                on.iter().for_each(|&axis| locked[axis] = true);
+                on.iter().for_each(|&axis| axis_limits.locked[axis] = true);
             } else if on.len() == 1 {
-                let ranges = if angular { &mut limits.turns } else { &mut limits.ways };
-                ranges.push((on[0], min, max));
+                axis_limits.ranges.push(AxisRange { axis: on[0], min, max });
             } else {
                 let what = if angular { "a cone" } else { "a distance" };
                 reader
@@ -110,19 +133,14 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
     limits
 }
 
-/// Axes that are locked (`wanted`), or that are not.
-fn axes_where(locked: [bool; 3], wanted: bool) -> Vec<usize> {
-    (0..3).filter(|&i| locked[i] == wanted).collect()
-}
-
 fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limits, sign: f64) -> String {
     let [first, second] = [a, b].map(|node| quoted(&sidecar_name(reader.model, node)));
     let pivot = format!("name = \"{name}\"\nbody = {first}\nto = {{ node = {second} }}\n");
     let unit = |i: usize| toml_vector(DVec3::AXES[i]);
-    let (linear, angular) = (axes_where(limits.linear, true), axes_where(limits.angular, true));
-    let (free_ways, free_turns) = (axes_where(limits.linear, false), axes_where(limits.angular, false));
-    let stops = |ranges: &[(usize, Option<f64>, Option<f64>)], axis: usize| {
-        let (_, min, max) = ranges.iter().find(|range| range.0 == axis)?;
+    let (linear, angular) = (limits.linear.locked_axes(), limits.angular.locked_axes());
+    let (free_linear, free_angular) = (limits.linear.free_axes(), limits.angular.free_axes());
+    let stops = |limits: &AxisLimits, axis: usize| {
+        let AxisRange { min, max, .. } = limits.ranges.iter().find(|range| range.axis == axis)?;
         let (min, max) = if sign < 0.0 { (max.map(|x| -x), min.map(|x| -x)) } else { (*min, *max) };
         let bound = |key: &str, value: Option<f64>| value.map(|value| format!("{key} = {value:?}"));
         let both: Vec<String> = [bound("min", min), bound("max", max)].into_iter().flatten().collect();
@@ -138,21 +156,21 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
             "[[constraint.point-to-point]]\nname = \"{name}\"\na = {{ node = {first} }}\nb = {{ node = {second} }}\n\n"
         ),
         (3, 2) => {
-            let axis = free_turns[0];
-            let stops = with(stops(&limits.turns, axis));
+            let axis = free_angular[0];
+            let stops = with(stops(&limits.angular, axis));
             format!("[[constraint.hinge]]\n{pivot}axis = {}\n{stops}\n", unit(axis))
         }
         (3, 1) => {
-            let (extension, other) = (unit(free_turns[0]), unit(free_turns[1]));
+            let (extension, other) = (unit(free_angular[0]), unit(free_angular[1]));
             format!("[[constraint.universal]]\n{pivot}axis = {extension}\nother_axis = {other}\n\n")
         }
         (3, 3) => format!("[[constraint.weld]]\n{pivot}\n"),
         (2, 3) => {
-            let axis = free_ways[0];
-            let stops = with(stops(&limits.ways, axis));
+            let axis = free_linear[0];
+            let stops = with(stops(&limits.linear, axis));
             format!("[[constraint.slider]]\n{pivot}axis = {}\n{stops}\n", unit(axis))
         }
-        (2, 0) => format!("[[constraint.line]]\n{pivot}direction = {}\n\n", unit(free_ways[0])),
+        (2, 0) => format!("[[constraint.line]]\n{pivot}direction = {}\n\n", unit(free_linear[0])),
         _ => {
             let mut text = String::new();
             for &i in &linear {
@@ -164,7 +182,7 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
             }
             // A locked rotation about i keeps the next axis perpendicular to the one after it. With two locked
             // rotations, the third axis stays perpendicular to both.
-            let pairs: Vec<(usize, usize)> = match (angular.len(), free_turns.first()) {
+            let pairs: Vec<(usize, usize)> = match (angular.len(), free_angular.first()) {
                 (2, Some(&axis)) => angular.iter().map(|&i| (axis, i)).collect(),
                 _ => angular.iter().map(|&i| ((i + 1) % 3, (i + 2) % 3)).collect(),
             };
@@ -179,7 +197,7 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
             text
         }
     };
-    if used < limits.ways.len() + limits.turns.len() {
+    if used < limits.linear.ranges.len() + limits.angular.ranges.len() {
         reader.remark(
             a,
             "bounds other than a hinge's rotation and a slider's displacement are skipped; see constraint.limit",
@@ -193,8 +211,8 @@ fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limi
 
 /// Drives: springs about a hinge's axis are converted, others are reported.
 fn drives(reader: &mut Reader, node: usize, name: &str, description: &Value, limits: &Limits, sign: f64) {
-    let free = axes_where(limits.angular, false);
-    let hinge = axes_where(limits.linear, true).len() == 3 && free.len() == 1;
+    let free = limits.angular.free_axes();
+    let hinge = limits.linear.locked_axes().len() == 3 && free.len() == 1;
     for drive in description["drives"].as_array().into_iter().flatten() {
         let number = |key: &str| drive[key].as_f64();
         let about = drive["axis"].as_u64().map(|axis| axis as usize);

@@ -10,7 +10,7 @@
 //! R at its ends, so only the plates of a pair can touch.
 
 use super::glb::{Finish, Scene};
-use super::hanging::{HOLE_RADIUS, drawn_plate, hang_by_hole};
+use super::hanging::{HOLE_RADIUS, SheetStock, drawn_plate, hang_by_hole};
 use super::mobile::Mobile;
 use super::outline::{Polygon, area_and_centroid, ellipse};
 use super::piece::{Piece, named};
@@ -28,19 +28,21 @@ pub const EXTENT: [f64; 2] = [15.0, 600.0];
 pub const THICKNESS: [f64; 2] = [0.3, 4.0];
 /// Largest weight ratio of a pair: the heavy plate's arm of the short branch would vanish.
 pub const PAIR_RATIO: f64 = 5.0;
-/// Distance from a plate's upper edge to the centre of its hole, and least width of sheet around the hole, mm.
-const INSET: f64 = 3.0;
-const RIM: f64 = 0.5;
+/// Distance from a plate's upper edge to the centre of its hole, mm.
+const HOLE_INSET: f64 = 3.0;
+/// Least width of sheet around the hole, mm.
+const HOLE_RIM: f64 = 0.5;
 /// Direction of a pair's branch, rad about the vertical: nearly towards the visitor, so that both plates are visible.
-const TOWARDS: f64 = 1.25;
+const PAIR_HEADING: f64 = 1.25;
 /// Clearance between parts that must not touch, m.
-const CLEAR: f64 = 12.0 * MM;
+const CLEARANCE: f64 = 12.0 * MM;
 /// Least length of a branch's shorter arm, m: enough for two eyes and a loop.
-const SHORTEST_ARM: f64 = 5.0 * MM;
+const MIN_ARM: f64 = 5.0 * MM;
 /// Height of the lowest point above the floor, m.
-const ABOVE_FLOOR: f64 = 0.2;
-/// Vertical field of view (rad) and aspect of the camera.
+const FLOOR_CLEARANCE: f64 = 0.2;
+/// Vertical field of view of the camera, rad.
 const FOVY: f64 = 27.0 * PI / 180.0;
+/// Width of the camera's picture over its height.
 const ASPECT: f64 = 16.0 / 9.0;
 
 /// Outline of a plate.
@@ -79,8 +81,8 @@ impl Metal {
     /// Gain of the breath that moves a sheet of `thickness` m as much as thin aluminium.
     pub fn gain(self, thickness: f64) -> f64 {
         /// Mass per area of aluminium of 0.8 mm, kg/m², which a child's breath swings against its neighbour.
-        const LIGHT: f64 = 2.16;
-        ((self.density() * thickness / LIGHT).max(1.0) * 10.0).round() / 10.0
+        const REFERENCE_AREAL_DENSITY: f64 = 2.16;
+        ((self.density() * thickness / REFERENCE_AREAL_DENSITY).max(1.0) * 10.0).round() / 10.0
     }
 
     /// Density, kg/m³.
@@ -148,7 +150,7 @@ fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
         let message = format!("{name} is {:.1} × {:.1} mm", size.x, size.y);
         return Some(rejection(message, &format!("plates are {least} to {most} mm high and wide")));
     }
-    let (hanging, _) = hang_by_hole(&(polygon.clone(), Vec::new()), INSET);
+    let (hanging, _) = hang_by_hole(&(polygon.clone(), Vec::new()), HOLE_INSET);
     let sides = || hanging.iter().zip(hanging.iter().cycle().skip(1));
     let left = sides().map(|(p, q)| {
         let along = ((-*p).dot(*q - *p) / (*q - *p).length_squared()).clamp(0.0, 1.0);
@@ -156,11 +158,12 @@ fn plate_problem(outline: &Outline) -> Option<Diagnostic> {
     });
     let crossings = sides().filter(|(p, q)| (p.y > 0.0) != (q.y > 0.0) && p.x - p.y * (q.x - p.x) / (q.y - p.y) > 0.0);
     let inside = crossings.count() % 2 == 1;
-    if !inside || left.fold(f64::INFINITY, f64::min) < HOLE_RADIUS + RIM {
+    if !inside || left.fold(f64::INFINITY, f64::min) < HOLE_RADIUS + HOLE_RIM {
         let message = format!("{name} is too narrow above its middle for the hole by which it hangs");
-        let need = 2.0 * (HOLE_RADIUS + RIM);
-        let help =
-            format!("leave {need:.0} mm of sheet around a point {INSET} mm below its upper edge, above its centre");
+        let need = 2.0 * (HOLE_RADIUS + HOLE_RIM);
+        let help = format!(
+            "leave {need:.0} mm of sheet around a point {HOLE_INSET} mm below its upper edge, above its centre"
+        );
         return Some(rejection(message, &help));
     }
     None
@@ -213,15 +216,16 @@ impl CutPlate {
 fn cut(k: usize, outline: &Outline, stem: f64, thickness: f64, metal: Metal, finish: usize) -> CutPlate {
     let names = ["", "Hook", "Stem"].map(|end| named(format!("Plate{}{end}", k + 1)));
     let drawn = (outline.polygon.clone(), Vec::new());
-    let (hanging, _) = hang_by_hole(&drawn, INSET);
+    let (hanging, _) = hang_by_hole(&drawn, HOLE_INSET);
     let reach = MM * hanging.iter().map(|p| p.x.abs()).fold(0.0, f64::max) + thickness;
-    let height = MM * (INSET - hanging.iter().map(|p| p.y).fold(0.0, f64::min));
-    let piece = drawn_plate(names, &drawn, INSET, stem, (thickness, metal.density(), finish));
+    let height = MM * (HOLE_INSET - hanging.iter().map(|p| p.y).fold(0.0, f64::min));
+    let stock = SheetStock { thickness, density: metal.density(), finish };
+    let piece = drawn_plate(names, &drawn, HOLE_INSET, stem, stock);
     CutPlate { piece, reach, height }
 }
 
 /// Length of the stem of a plate that hangs alone or behind, m.
-const STEM: f64 = 24.0 * MM;
+const STEM_LENGTH: f64 = 24.0 * MM;
 
 /// Two plates on a short branch, `behind` the heavier; the front one hangs lower by a third of the other's height.
 /// Pairs alternate between both sides by their `number`.
@@ -232,9 +236,9 @@ fn pair(number: usize, behind: &CutPlate, front: &CutPlate, thickness: f64) -> R
         let message = format!("two neighbours in weight, {a:.1} g and {b:.1} g, differ by more than 1 to {PAIR_RATIO}");
         return Err(rejection(message, "give plates that are more alike, or one of a size between them"));
     }
-    let swing = STEM + 0.33 * behind.height + front.height;
+    let swing = STEM_LENGTH + 0.33 * behind.height + front.height;
     let gap = (0.08 * swing).clamp(9.0 * MM, 15.0 * MM) + thickness;
-    let chord = (gap / sin(TOWARDS)).max(SHORTEST_ARM * (heavy + light) / light);
+    let chord = (gap / sin(PAIR_HEADING)).max(MIN_ARM * (heavy + light) / light);
     let depth = 0.2 * chord;
     // Where the balance requires a longer branch, it points more to the side, which keeps the gap of the plates.
     let towards = asin(gap / chord);
@@ -274,11 +278,11 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
     let tree = || -> Result<TreeNode, Diagnostic> {
         let mut subtrees = Vec::new();
         if alone == 1 {
-            subtrees.push(cut(0, STEM).subtree(0.2));
+            subtrees.push(cut(0, STEM_LENGTH).subtree(0.2));
         }
         for (number, [behind, front]) in (1..).zip(&pairs) {
-            let behind = cut(*behind, STEM);
-            let front = cut(*front, STEM + 0.33 * behind.height);
+            let behind = cut(*behind, STEM_LENGTH);
+            let front = cut(*front, STEM_LENGTH + 0.33 * behind.height);
             subtrees.push(pair(number, &behind, &front, thickness)?);
         }
         // The lightest is the lowest; the branches point alternately left and right.
@@ -288,8 +292,8 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
         let chain = subtrees.fold(lowest, |below, subtree| {
             let below = below?;
             level -= 1;
-            let arm = SHORTEST_ARM * (below.mass + subtree.mass) / below.mass.min(subtree.mass);
-            let chord = (below.reach + subtree.reach + CLEAR).max(arm);
+            let arm = MIN_ARM * (below.mass + subtree.mass) / below.mass.min(subtree.mass);
+            let chord = (below.reach + subtree.reach + CLEARANCE).max(arm);
             let depth = (0.04 * chord).clamp(8.0 * MM, 30.0 * MM);
             let turn = if level % 2 == 1 { 0.12 } else { PI - 0.16 };
             Some(branch_subtree(format!("Bough{level}"), chord, 0.04 * chord, depth, turn, [below, subtree]))
@@ -300,7 +304,7 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
     // Assembled at the origin first, to find its lowest point.
     let one = |problem| vec![problem];
     let (low, _) = bounds(&assemble_tree(DVec3::ZERO, tree().map_err(one)?));
-    let hook = DVec3::new(0.0, ((ABOVE_FLOOR - low.y) * 1e3).ceil() * MM, 0.0);
+    let hook = DVec3::new(0.0, ((FLOOR_CLEARANCE - low.y) * 1e3).ceil() * MM, 0.0);
     let mobile = Mobile { pieces: assemble_tree(hook, tree().map_err(one)?), stand: ceiling(iron) };
     mobile.stand.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: hook });
     for (piece, pose) in &mobile.pieces {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::ExhibitFolder;
 use super::glb::{Finish, Scene};
-use super::hanging::disc;
+use super::hanging::{SheetStock, disc};
 use super::mobile::Mobile;
 use super::piece::Piece;
 use super::plate_mobile::{Metal, Outline, PlacedPlate, PlateMobile, mobile as plate_mobile};
@@ -219,7 +219,8 @@ pub fn empty(id: &str) -> ExhibitFolder {
     let red = scene.finish(&Finish { name: "Red paint", color: [0.55, 0.018, 0.012], metallic: 0.0, roughness: 0.40 });
     let iron = scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 });
     let hook = 0.45 * DVec3::Y;
-    let disc = disc(["Disc", "DiscHook", "DiscStem"], (120.0 * MM, 1.0 * MM), 90.0 * MM, (ALUMINIUM, red));
+    let stock = SheetStock { thickness: 1.0 * MM, density: ALUMINIUM, finish: red };
+    let disc = disc(["Disc", "DiscHook", "DiscStem"], 120.0 * MM, 90.0 * MM, stock);
     let target = hook - 0.08 * DVec3::Y;
     let stand = ceiling(iron);
     let mut out = header(id, "One disc on a hook: the simplest exhibit. Add your own bodies.");

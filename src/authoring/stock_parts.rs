@@ -117,12 +117,23 @@ pub fn part(name: &'static str, solid: Solid, position: DVec3, rotation: DQuat, 
     Part { name, solid, place: Pose { rotation, position }, density, finish }
 }
 
-/// A vane of a fan: its long side points outwards at `angle` about z, its face is pitched by `pitch` from facing z;
-/// `stuff` is density and finish.
-pub fn vane(name: &'static str, size: [f64; 3], radius: f64, angle: f64, pitch: f64, stuff: (f64, usize)) -> Part {
+/// Where a vane of a fan sits.
+#[derive(Clone, Copy, Debug)]
+pub struct VanePlacement {
+    /// Distance of its centre from the z axis, m.
+    pub radius: f64,
+    /// Direction of its long side, rad about z.
+    pub angle: f64,
+    /// Angle between the normal of its face and the z axis, rad.
+    pub pitch: f64,
+}
+
+/// A vane of a fan: its long side points outwards.
+pub fn vane(name: &'static str, size: [f64; 3], at: VanePlacement, density: f64, finish: usize) -> Part {
+    let VanePlacement { radius, angle, pitch } = at;
     let turn = rotation(angle * DVec3::Z);
     let lean = rotation(pitch * DVec3::X);
-    part(name, slab(size[0], size[1], size[2]), turn * (radius * DVec3::X), turn * lean, stuff.0, stuff.1)
+    part(name, slab(size[0], size[1], size[2]), turn * (radius * DVec3::X), turn * lean, density, finish)
 }
 
 /// A foot with a bent rod that ends at `top`; the rod rises at `post` (x, z). The sidecar draws the rod through

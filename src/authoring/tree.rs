@@ -46,8 +46,10 @@ pub struct BranchNode {
 
 /// Segments of each arm.
 const STEPS: usize = 12;
-/// Radius of loops and eyes over that of the wire, and the least radius, m.
-const EYE: (f64, f64) = (2.7, 1.7e-3);
+/// Radius of loops and eyes over that of the wire.
+const EYE_RATIO: f64 = 2.7;
+/// Least radius of loops and eyes, m.
+const MIN_EYE: f64 = 1.7e-3;
 
 struct Bent {
     piece: Piece,
@@ -75,7 +77,7 @@ fn bend_bough(BranchNode { name, radius, chord, rise, depth, turn, ends }: Branc
     let drawn = Branch {
         names: [name, loops, wire, right, left],
         radius,
-        eye: (EYE.0 * radius).max(EYE.1),
+        eye: (EYE_RATIO * radius).max(MIN_EYE),
         chord,
         droop: [depth, -rise],
         steps: STEPS,

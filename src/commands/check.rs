@@ -1,6 +1,5 @@
 //! `soffio check`: all problems of exhibits, models, configurations and files of UI strings at once, each located and explained.
 
-use std::io::IsTerminal;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,7 +46,7 @@ pub fn run(args: Args) -> Outcome {
                 Some(Findings { tried, of, .. }) => format!("{verdict} (time for {tried} of {of} loads)"),
                 None => verdict,
             };
-            eprint!("{}", report.render(std::io::stderr().is_terminal()));
+            eprint!("{}", report.to_terminal_text());
             eprintln!("{path}: {verdict}");
         }
         all.absorb(report);

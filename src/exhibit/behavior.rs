@@ -54,6 +54,17 @@ pub struct IdleDampingSpec {
     pub time: f64,
 }
 
+/// Where a sounding body is hit: axes and centre in the frame of its node.
+#[derive(Clone, Copy, Debug)]
+pub struct ImpactFrame {
+    /// Axis of the largest half extent.
+    pub longest: DVec3,
+    /// Axis of the second half extent.
+    pub middle: DVec3,
+    /// Centre of the extents, m.
+    pub center: DVec3,
+}
+
 /// Which motion of which body plays which instrument.
 #[derive(Clone, Debug)]
 pub struct SoundBinding {
@@ -65,8 +76,8 @@ pub struct SoundBinding {
     pub on: SoundTrigger,
     /// Index into [`Exhibit::instruments`](super::Exhibit::instruments).
     pub instrument: usize,
-    /// Node-frame axes of the two largest half extents, and the centre: they locate an impact on the body.
-    pub frame: (DVec3, DVec3, DVec3),
+    /// Locates an impact on the body.
+    pub frame: ImpactFrame,
     /// Index of the wire that the wind plays, if the sound is a wire's: only wind across the wire sounds.
     pub wire: Option<usize>,
     /// Key of the caption in the labels.

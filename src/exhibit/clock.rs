@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_time_of_day_is_refused() {
+    fn an_invalid_time_of_day_is_refused() {
         for wrong in ["", "12", "24:00", "12:60", "a:b", "1:2:3:4", "-1:00"] {
             assert!(time_of_day(wrong).is_err(), "{wrong}");
         }

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::io::IsTerminal;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -130,9 +131,18 @@ impl Report {
         serde_json::to_value(&self.diagnostics).unwrap_or_default()
     }
 
-    /// The problems as text, in colour or without.
-    pub fn render(&self, color: bool) -> String {
-        let theme = if color { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+    /// The problems as text without colours.
+    pub fn to_text(&self) -> String {
+        self.render(GraphicalTheme::unicode_nocolor())
+    }
+
+    /// The problems as text for the standard error stream: coloured if that is a terminal.
+    pub fn to_terminal_text(&self) -> String {
+        let is_terminal = std::io::stderr().is_terminal();
+        self.render(if is_terminal { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() })
+    }
+
+    fn render(&self, theme: GraphicalTheme) -> String {
         let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
         let mut text = String::new();
         for diagnostic in &self.diagnostics {
@@ -171,8 +181,7 @@ fn named(file: &str, text: &Arc<str>) -> impl SourceCode + 'static {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        use std::io::IsTerminal;
-        f.write_str(&self.render(std::io::stderr().is_terminal()))
+        f.write_str(&self.to_terminal_text())
     }
 }
 

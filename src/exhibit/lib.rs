@@ -49,7 +49,7 @@ pub mod sidecar;
 mod source;
 pub mod view;
 
-pub use behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, SoundTrigger, TouchPermission};
+pub use behavior::{BreathTuning, IdleDampingSpec, ImpactFrame, Motion, SoundBinding, SoundTrigger, TouchPermission};
 pub use bodies::{Body, Material, MaterialPair, Wire};
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};

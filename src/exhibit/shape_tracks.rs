@@ -11,8 +11,10 @@ use super::model::{Channel, Model, Track};
 pub struct ShapeTrack {
     /// The channel: a scale or morph weights.
     pub channel: Channel,
-    /// First and last key of the whole animation, s: its channels repeat together.
-    pub span: (f64, f64),
+    /// First key of the whole animation, s: its channels repeat together.
+    pub first_key: f64,
+    /// Last key of the whole animation, s.
+    pub last_key: f64,
     /// Does it start again after the last key?
     pub repeat: bool,
 }
@@ -20,14 +22,14 @@ pub struct ShapeTrack {
 impl ShapeTrack {
     /// Time in the animation at `t` seconds after the reset, s.
     pub fn time(&self, t: f64) -> f64 {
-        let (first, last) = self.span;
+        let Self { first_key: first, last_key: last, .. } = *self;
         let length = last - first;
         if self.repeat && length > 0.0 { t - length * ((t - first) / length).floor() } else { t }
     }
 
     /// Can the shape still change after `t` seconds?
     pub fn is_changing(&self, t: f64) -> bool {
-        let (first, last) = self.span;
+        let Self { first_key: first, last_key: last, .. } = *self;
         last > first && (self.repeat || t < last)
     }
 }
@@ -49,9 +51,10 @@ pub fn shapes(model: &Model, followed: impl Fn(usize) -> Option<(usize, bool)>) 
         };
         let channels = &model.animations[index].channels;
         let times = || channels.iter().flat_map(|channel| &channel.times).copied();
-        let span = (times().fold(f64::INFINITY, f64::min), times().fold(0.0, f64::max));
+        let first_key = times().fold(f64::INFINITY, f64::min);
+        let last_key = times().fold(0.0, f64::max);
         if let Some(chosen) = channels.iter().find(|other| alike(other, channel)) {
-            tracks.push(ShapeTrack { channel: chosen.clone(), span, repeat });
+            tracks.push(ShapeTrack { channel: chosen.clone(), first_key, last_key, repeat });
         }
     }
     tracks

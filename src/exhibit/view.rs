@@ -160,7 +160,7 @@ impl Exhibit {
         let View { eye, target, .. } = self.view(aspect);
         let from = eye - target;
         let elevation = |height: f64| asin((height / from.length()).clamp(-1.0, 1.0));
-        let bounds = self.bounds(false);
+        let bounds = self.bounds();
         let lowest = if bounds.is_empty() { target.y } else { bounds.min.y };
         OrbitLimits {
             yaw: MAX_YAW,
@@ -174,8 +174,8 @@ impl Exhibit {
         let eye = world.w_axis.truncate();
         let forward = -world.z_axis.truncate().try_normalize().unwrap_or(DVec3::Z);
         let up = world.y_axis.truncate().try_normalize().unwrap_or(DVec3::Y);
-        let moving = self.bounds(true);
-        let bounds = if moving.is_empty() { self.bounds(false) } else { moving };
+        let moving = self.moving_bounds();
+        let bounds = if moving.is_empty() { self.bounds() } else { moving };
         let depth = if bounds.is_empty() { 1.0 } else { (bounds.center() - eye).dot(forward) };
         // A camera that looks away from the exhibit still needs a target.
         let depth = if depth > 1e-3 { depth } else { 1.0 };
@@ -188,7 +188,7 @@ impl Exhibit {
 
     /// A view from the front that shows the whole bounds in any aspect.
     fn framing_view(&self, aspect: f64) -> View {
-        let bounds = self.bounds(false);
+        let bounds = self.bounds();
         let (center, radius) =
             if bounds.is_empty() { (DVec3::ZERO, 0.5) } else { (bounds.center(), bounds.radius().max(1e-3)) };
         // The sphere around the bounds touches the narrower pair of picture edges.
@@ -197,12 +197,22 @@ impl Exhibit {
         View { eye: center + DVec3::Z * distance, target: center, up: DVec3::Y, fovy: FRAMING_FOVY }
     }
 
-    /// Box around the meshes and wires at rest; `moving` leaves out static ones.
-    pub fn bounds(&self, moving: bool) -> Bounds {
+    /// Box around all meshes and wires at rest.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds_where(|_| true)
+    }
+
+    /// Box around the meshes and wires of bodies at rest; static ones are left out.
+    pub fn moving_bounds(&self) -> Bounds {
+        self.bounds_where(|body| body.is_some())
+    }
+
+    /// Box around the meshes and wires at rest whose body, `None` for static ones, passes `included`.
+    fn bounds_where(&self, included: impl Fn(Option<usize>) -> bool) -> Bounds {
         let mut bounds = Bounds::EMPTY;
         let carrying_bodies = self.carrying_bodies();
         for (node, carrier) in self.model.nodes.iter().zip(&carrying_bodies) {
-            if moving && carrier.is_none() {
+            if !included(*carrier) {
                 continue;
             }
             let Some(mesh) = node.mesh.and_then(|m| self.model.meshes.get(m)) else { continue };
@@ -212,7 +222,7 @@ impl Exhibit {
         }
         for wire in &self.wires {
             let pose = wire.body.and_then(|b| self.bodies.get(b)).map(|b| b.pose);
-            if moving && pose.is_none() {
+            if !included(wire.body) {
                 continue;
             }
             for &point in &wire.points {
@@ -310,8 +320,8 @@ mod tests {
         assert!((above.eye - 2.0 * DVec3::new(0.0, s, c)).length() < ROUNDING, "{above:?}");
         for turn in [[0.3, -0.1], [-1.0, 0.8]] {
             let turned = view().orbited(turn);
-            let way = |view: &View| (view.eye - view.target).length();
-            assert!((way(&turned) - way(&view())).abs() < ROUNDING && turned.target == view().target);
+            let distance = |view: &View| (view.eye - view.target).length();
+            assert!((distance(&turned) - distance(&view())).abs() < ROUNDING && turned.target == view().target);
             assert_eq!(
                 turned.project(turned.target, 1.5).map(|at| at.map(|x| (x - 0.5).abs() < ROUNDING)),
                 Some([true; 2])

@@ -25,28 +25,35 @@ use super::textures::to_linear;
 use soffio_exhibit::Exhibit;
 use soffio_exhibit::model::{Appearance, Model};
 
-/// Longest edge, in radii of the scene, and number of vertices beyond which no edge is halved.
+/// Longest edge after refinement, in radii of the scene.
 const MAX_EDGE: f32 = 1.0 / 28.0;
+/// Number of vertices beyond which no edge is halved.
 const MAX_VERTICES: usize = 30_000;
-/// Fewest and most rays of each vertex; with fewer than the first nothing is baked.
-const RAYS: (usize, usize) = (12, 320);
-const ALL_RAYS: usize = 6_000_000;
+/// Fewest rays of each vertex; with fewer, nothing is baked.
+const MIN_RAYS: usize = 12;
+/// Most rays of each vertex.
+const MAX_RAYS: usize = 320;
+/// Most rays of all vertices together.
+const RAY_BUDGET: usize = 6_000_000;
 /// Number of reflections.
 const REFLECTIONS: u32 = 5;
 /// Points along each side of an area light that a vertex is tested against.
 const LIGHT_GRID: u32 = 4;
 /// Mip level of the environment cube that rays read: as coarse as the rays are sparse.
-const ROUGH: usize = 2;
+const RAY_MIP_LEVEL: usize = 2;
 /// Offset of ray origins towards the centre of the vertex's triangles, as a fraction. In the exact edge between a wall
 /// and a floor rays would slip through.
-const ASIDE: f32 = 0.02;
+const ORIGIN_INSET: f32 = 0.02;
 /// Rotation of the rays, rad: none runs along the edges of refined triangles, where rounding would let it through.
-const ASKEW: f32 = 0.37;
+const RAY_ROTATION: f32 = 0.37;
 
 /// Light that falls on a static scene.
 pub(super) struct BakedLight<'a> {
+    /// Light from the environment map.
     pub environment: &'a Environment,
+    /// Factor on the radiance of the environment map.
     pub env_intensity: f32,
+    /// Area light, if the scene has one.
     pub area: Option<AreaLight>,
 }
 
@@ -55,28 +62,28 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
     scene.refine(MAX_EDGE * radius, MAX_VERTICES);
     let (positions, normals) = start_geometry(scene, exhibit);
     let order = groups(&positions, &normals, radius);
-    let rays = (ALL_RAYS / order.len().max(1)).min(RAYS.1);
-    let Some(caster) = (rays >= RAYS.0).then(|| RayCaster::new(scene, &positions, false)).flatten() else { return };
+    let rays = (RAY_BUDGET / order.len().max(1)).min(MAX_RAYS);
+    let Some(caster) = (rays >= MIN_RAYS).then(|| RayCaster::of_opaque(scene, &positions)).flatten() else { return };
     let mut group_of = vec![0; positions.len()];
     for (index, group) in order.iter().enumerate() {
         group.iter().for_each(|&i| group_of[i as usize] = index);
     }
-    let directions = cosine_directions(rays as u32).into_iter().map(|d| Quat::from_rotation_z(ASKEW) * d);
+    let directions = cosine_directions(rays as u32).into_iter().map(|d| Quat::from_rotation_z(RAY_ROTATION) * d);
     let directions: Vec<Vec3> = directions.collect();
     let inward = inward(scene, &positions);
     let clear = 2e-4 * radius;
     let gathered = in_parallel(&order, |group| {
         let i = group[0] as usize;
         let mean = group.iter().map(|&i| inward[i as usize]).sum::<Vec3>() / group.len() as f32;
-        let (place, normal) = (positions[i] + clear * normals[i] + ASIDE * mean, normals[i]);
+        let (place, normal) = (positions[i] + clear * normals[i] + ORIGIN_INSET * mean, normals[i]);
         let (t, b) = normal.any_orthonormal_pair();
         let (mut open, mut all) = (0.0, 0.0);
         let mut met = Vec::new();
         for d in &directions {
-            let way = t * d.x + b * d.y + normal * d.z;
-            let brightness = light.environment.radiance(way, ROUGH).element_sum();
+            let direction = t * d.x + b * d.y + normal * d.z;
+            let brightness = light.environment.radiance(direction, RAY_MIP_LEVEL).element_sum();
             all += brightness;
-            match caster.nearest_hit(place, way) {
+            match caster.nearest_hit(place, direction) {
                 Some(triangle) => met.push(triangle),
                 None => open += brightness,
             }
@@ -123,7 +130,7 @@ fn inward(scene: &Scene, positions: &[Vec3]) -> Vec<Vec3> {
 
 /// Irradiance from an area light, as far as it is visible.
 fn from_area(caster: &RayCaster, place: Vec3, normal: Vec3, area: &AreaLight) -> Vec3 {
-    let (center, (x, y)) = (area.center, area.half);
+    let AreaLight { center, half_width: x, half_height: y, .. } = *area;
     if (place - center).dot(x.cross(y)) <= 0.0 {
         return Vec3::ZERO;
     }
@@ -230,8 +237,13 @@ pub(super) mod tests {
             ..Default::default()
         };
         let (exhibit, scene) = of_primitive(floor, Vec::new());
-        let caster = RayCaster::new(&scene, &start_geometry(&scene, &exhibit).0, false).expect("a triangle");
-        let area = |up: f32| AreaLight { center: Vec3::Y, half: (Vec3::X, up * Vec3::Z), radiance: Vec3::ONE };
+        let caster = RayCaster::of_opaque(&scene, &start_geometry(&scene, &exhibit).0).expect("a triangle");
+        let area = |up: f32| AreaLight {
+            center: Vec3::Y,
+            half_width: Vec3::X,
+            half_height: up * Vec3::Z,
+            radiance: Vec3::ONE,
+        };
         let lit = from_area(&caster, 1e-4 * Vec3::Y, Vec3::Y, &area(1.0));
         assert!((lit.x / PI - 4.0 * 0.138_532).abs() < TOLERANCE, "{lit}");
         assert_eq!(from_area(&caster, 1e-4 * Vec3::Y, Vec3::Y, &area(-1.0)), Vec3::ZERO, "it shines to one side");

@@ -28,7 +28,7 @@ pub(super) fn casters(scene: &Scene, positions: &[Vec3], radius: f32, eye: Vec3)
     let mut counts: Vec<bool> =
         bounds.iter().map(|(low, high)| 0.5 * (*high - *low).length() < SMALL * radius).collect();
     if counts.iter().any(|counts| !counts)
-        && let Some(solid) = RayCaster::new(scene, positions, false)
+        && let Some(solid) = RayCaster::of_opaque(scene, positions)
     {
         let mut shaded = vec![0; count];
         for (&place, &own) in positions.iter().zip(&pieces) {

@@ -12,7 +12,7 @@
 //! enlarged to the largest of their array, which changes only which four pixels are blended.
 
 use super::Gpu;
-use super::textures::texture;
+use super::textures::{ColorSpace, texture};
 use soffio_exhibit::model::{Details, Image, TextureUse};
 
 /// Source of a channel: a texture, its first channel, and the first channel it fills.
@@ -32,23 +32,23 @@ pub(super) fn views(
     ];
     let data: [&[Fill]; 2] = [
         &[(of.transmission, 0, 0, 1), (of.thickness, 1, 1, 1), (of.coat, 0, 2, 1), (of.coat_roughness, 1, 3, 1)],
-        &[(of.coat_normal.map(|(texture, _)| texture), 0, 0, 3)],
+        &[(of.coat_normal.map(|map| map.texture), 0, 0, 3)],
     ];
     let limit = gpu.device.limits().max_texture_dimension_2d;
-    [(colors, true), (data, false)].map(|(layers, srgb)| match pack(images, &layers, limit) {
-        Some(packed) => array(gpu, &packed, srgb),
-        None => none[usize::from(!srgb)].clone(),
+    [(colors, ColorSpace::Srgb), (data, ColorSpace::Linear)].map(|(layers, space)| match pack(images, &layers, limit) {
+        Some(packed) => array(gpu, &packed, space),
+        None => none[space as usize].clone(),
     })
 }
 
 /// Arrays without effect.
 pub(super) fn none(gpu: &Gpu) -> [wgpu::TextureView; 2] {
     let white = Image { width: 1, height: 1, rgba: vec![255; 4] };
-    [true, false].map(|srgb| array(gpu, &[white.clone(), white.clone()], srgb))
+    [ColorSpace::Srgb, ColorSpace::Linear].map(|space| array(gpu, &[white.clone(), white.clone()], space))
 }
 
-fn array(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::TextureView {
-    texture(gpu, layers, srgb).create_view(&wgpu::TextureViewDescriptor {
+fn array(gpu: &Gpu, layers: &[Image], space: ColorSpace) -> wgpu::TextureView {
+    texture(gpu, layers, space).create_view(&wgpu::TextureViewDescriptor {
         dimension: Some(wgpu::TextureViewDimension::D2Array),
         ..Default::default()
     })

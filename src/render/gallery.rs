@@ -69,8 +69,10 @@ pub struct Lamp {
     pub radius: f32,
     /// Intensity on the axis: irradiance × distance².
     pub intensity: Vec3,
-    /// Cosines of the half-angles at which the cone begins to fade and at which it ends.
-    pub cone: (f32, f32),
+    /// Cosine of the half-angle at which the cone begins to fade.
+    pub cos_inner: f32,
+    /// Cosine of the half-angle at which the cone ends.
+    pub cos_outer: f32,
 }
 
 /// The gallery around an exhibit.
@@ -99,7 +101,7 @@ impl Gallery {
     /// A gallery scaled to the exhibit: the wall a little behind it as the visitor sees it, the floor under standing
     /// exhibits.
     pub fn around(exhibit: &Exhibit) -> Self {
-        let bounds = exhibit.bounds(false);
+        let bounds = exhibit.bounds();
         let (min, max) = if bounds.is_empty() {
             (Vec3::splat(-0.5), Vec3::splat(0.5))
         } else {
@@ -127,7 +129,14 @@ impl Gallery {
             z,
             exhibit_center: work,
             radius,
-            lamps: [Lamp { position: work, axis: -z, radius: 0.1, intensity: Vec3::ZERO, cone: (1.0, 0.0) }; 2],
+            lamps: [Lamp {
+                position: work,
+                axis: -z,
+                radius: 0.1,
+                intensity: Vec3::ZERO,
+                cos_inner: 1.0,
+                cos_outer: 0.0,
+            }; 2],
             fields: fields(),
             radiosity: [Vec3::ZERO; 6],
         };
@@ -152,7 +161,8 @@ impl Gallery {
                 axis,
                 radius: disc * r,
                 intensity: color * (irradiance * to_foot.length_squared() / cosine),
-                cone: (0.985, 0.84),
+                cos_inner: 0.985,
+                cos_outer: 0.84,
             }
         };
         [

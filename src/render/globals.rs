@@ -42,11 +42,14 @@ struct PlaneUniform {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Globals {
+    /// View and projection of the camera.
     pub clip_from_world: Mat4,
     shadow_from_world: Mat4,
+    /// Position of the camera, world, m.
     pub eye: Vec3,
     exposure: f32,
     right: Vec3,
+    /// Size of a pixel at distance 1.
     pub pixel_angle: f32,
     up: Vec3,
     shadow_taps: f32,
@@ -61,6 +64,7 @@ pub(super) struct Globals {
     wall_albedo: Vec3,
     lamp_count: u32,
     floor_albedo: Vec3,
+    /// Number of punctual lights in use.
     pub punctual_count: u32,
     area_center: Vec3,
     shadow_radius: f32,
@@ -77,6 +81,7 @@ pub(super) struct Globals {
     irradiance: [Vec4; 9],
     lamps: [LampUniform; 2],
     planes: [PlaneUniform; 2],
+    /// Punctual lights, world frame.
     pub punctual: [PunctualUniform; MAX_PUNCTUAL],
 }
 
@@ -103,7 +108,7 @@ impl Globals {
         g.background = lighting.background.unwrap_or_default();
         if let Some(area) = lighting.area_light {
             (g.area_center, g.area_radiance) = (area.center, area.radiance);
-            (g.area_x, g.area_y) = area.half;
+            (g.area_x, g.area_y) = (area.half_width, area.half_height);
         }
         g.shadow_from_world = map.clip_from_world;
         (g.shadow_radius, g.shadow_texel) = (map.light_radius, map.texel);
@@ -115,14 +120,13 @@ impl Globals {
             *to = from.extend(0.0);
         }
         for (to, lamp) in g.lamps.iter_mut().zip(&gallery.lamps) {
-            let (cos_inner, cos_outer) = lamp.cone;
             *to = LampUniform {
                 position: lamp.position,
                 radius: lamp.radius,
                 color: lamp.intensity,
-                cos_outer,
+                cos_outer: lamp.cos_outer,
                 axis: lamp.axis,
-                cos_inner,
+                cos_inner: lamp.cos_inner,
             };
         }
         for (to, plane) in g.planes.iter_mut().zip(planes) {

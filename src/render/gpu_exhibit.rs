@@ -58,25 +58,37 @@ pub struct GpuExhibit {
 
 /// Vertex, index and instance buffers.
 pub(super) struct Buffers {
+    /// Vertices of all meshes.
     pub vertices: wgpu::Buffer,
+    /// Triangles of all batches.
     pub indices: wgpu::Buffer,
+    /// Segments of the wires, one instance each.
     pub segments: wgpu::Buffer,
+    /// Edges of plate silhouettes, one instance each.
     pub ribbons: wgpu::Buffer,
+    /// Analytic plate shadows, one instance each.
     pub shadow_instances: wgpu::Buffer,
 }
 
 /// Textures that each frame fills, and bind groups.
 pub(super) struct Bindings {
+    /// Silhouettes of plates, as [`Outlines`] lists them.
     pub contours: wgpu::Texture,
+    /// Rims of the plates that cast analytic shadows.
     pub rims: wgpu::Texture,
+    /// Bind group of `rims`.
     pub rims_bind_group: wgpu::BindGroup,
+    /// Bind group of the light: environment, light map, shadows.
     pub light_group: wgpu::BindGroup,
+    /// Bind group of each material, and last of the default one.
     pub materials: Vec<wgpu::BindGroup>,
 }
 
 /// Targets of the shadows on wall and floor.
 pub(super) struct PlaneTargets {
+    /// Shadows on wall and floor.
     pub views: [wgpu::TextureView; 2],
+    /// Depth targets that separate the lamp samples, for wall and floor.
     pub orders: [wgpu::TextureView; 2],
     /// Size of each, texels.
     pub texels: [(u32, u32); 2],

@@ -169,8 +169,10 @@ pub enum ShadowQuality {
 pub struct AreaLight {
     /// Centre, world, m.
     pub center: Vec3,
-    /// Half-size vectors of its sides, m; its light goes along x × y.
-    pub half: (Vec3, Vec3),
+    /// Half of one side, m; its light goes along `half_width` × `half_height`.
+    pub half_width: Vec3,
+    /// Half of the other side, m.
+    pub half_height: Vec3,
     /// Radiance, relative to exposure 1.
     pub radiance: Vec3,
 }

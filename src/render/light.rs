@@ -10,7 +10,9 @@ use super::shared::SharedResources;
 
 /// Sources of the light on one exhibit.
 pub(super) struct LightResources<'a> {
+    /// Environment map, with its levels of roughness.
     pub environment: &'a Environment,
+    /// Gallery, whose faces have a light map.
     pub gallery: &'a Gallery,
     /// Shadows on wall and floor.
     pub planes: &'a [wgpu::TextureView; 2],

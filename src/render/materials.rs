@@ -6,6 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
 
 use super::shared::SharedResources;
+use super::textures::ColorSpace::{self, Linear, Srgb};
 use super::textures::upload;
 use super::{Gpu, details};
 use soffio_exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler, TextureUse, Wrap};
@@ -51,9 +52,9 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, shared: &mut SharedResources) 
         .chain([&default])
         .map(|appearance| {
             let uses = uses(appearance);
-            let color = [true, false, false, false, true];
+            let spaces = [Srgb, Linear, Linear, Linear, Srgb];
             let views: Vec<_> =
-                uses.iter().zip(color).map(|(t, srgb)| textures.view(t.map(|t| t.image), srgb, white)).collect();
+                uses.iter().zip(spaces).map(|(t, space)| textures.view(t.map(|t| t.image), space, white)).collect();
             let samplers: Vec<_> =
                 uses.iter().map(|t| textures.sampler(t.map_or(Sampler::default(), |t| t.sampler))).collect();
             let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -86,8 +87,8 @@ fn uses(appearance: &Appearance) -> [Option<TextureUse>; 5] {
     [
         appearance.base_color_texture,
         appearance.metallic_roughness_texture,
-        appearance.normal_texture.map(|t| t.0),
-        appearance.occlusion_texture.map(|t| t.0),
+        appearance.normal_texture.map(|map| map.texture),
+        appearance.occlusion_texture.map(|map| map.texture),
         appearance.emissive_texture,
     ]
 }
@@ -113,8 +114,8 @@ fn uniform(appearance: &Appearance) -> MaterialUniform {
         emissive: appearance.emissive,
         metallic: appearance.metallic,
         roughness: appearance.roughness,
-        normal_scale: appearance.normal_texture.map_or(0.0, |t| t.1),
-        occlusion: appearance.occlusion_texture.map_or(0.0, |t| t.1),
+        normal_scale: appearance.normal_texture.map_or(0.0, |map| map.scale),
+        occlusion: appearance.occlusion_texture.map_or(0.0, |map| map.scale),
         cutoff: if let AlphaMode::Mask(cutoff) = appearance.alpha { cutoff.max(1e-6) } else { 0.0 },
         f0,
         f90: appearance.specular,
@@ -127,7 +128,7 @@ fn uniform(appearance: &Appearance) -> MaterialUniform {
         coat: appearance.coat,
         coat_roughness: appearance.coat_roughness,
         unlit: if appearance.unlit { 1.0 } else { 0.0 },
-        coat_normal_scale: appearance.details.coat_normal.map_or(0.0, |(_, scale)| scale),
+        coat_normal_scale: appearance.details.coat_normal.map_or(0.0, |map| map.scale),
         spare: [0.0; 2],
         uv,
     }
@@ -137,7 +138,7 @@ fn uniform(appearance: &Appearance) -> MaterialUniform {
 struct Textures<'a> {
     gpu: &'a Gpu,
     images: &'a [Image],
-    made: BTreeMap<(usize, bool), wgpu::TextureView>,
+    made: BTreeMap<(usize, ColorSpace), wgpu::TextureView>,
     samplers: &'a mut BTreeMap<Sampler, wgpu::Sampler>,
 }
 
@@ -170,7 +171,7 @@ impl Textures<'_> {
         self.samplers.entry(sampler).or_insert_with(make).clone()
     }
 
-    fn view(&mut self, image: Option<usize>, srgb: bool, white: &wgpu::TextureView) -> wgpu::TextureView {
+    fn view(&mut self, image: Option<usize>, space: ColorSpace, white: &wgpu::TextureView) -> wgpu::TextureView {
         let Some((index, image)) = image.and_then(|i| Some((i, self.images.get(i)?))) else { return white.clone() };
         // An image that exceeds the adapter's limit is shown as white rather than not at all.
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
@@ -178,11 +179,11 @@ impl Textures<'_> {
             tracing::warn!("image {index} is {}x{}, beyond 1 to {limit}: left white", image.width, image.height);
             return white.clone();
         }
-        if let Some(view) = self.made.get(&(index, srgb)) {
+        if let Some(view) = self.made.get(&(index, space)) {
             return view.clone();
         }
-        let view = upload(self.gpu, image, srgb);
-        self.made.insert((index, srgb), view.clone());
+        let view = upload(self.gpu, image, space);
+        self.made.insert((index, space), view.clone());
         view
     }
 }

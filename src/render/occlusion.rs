@@ -41,10 +41,20 @@ pub(super) struct RayCaster {
 }
 
 impl RayCaster {
-    /// The opaque triangles of the scene, or the static ones alone; `None` where there are none.
-    pub fn new(scene: &Scene, positions: &[Vec3], only_static: bool) -> Option<Self> {
+    /// Rays against all opaque triangles of the scene; `None` where there are none.
+    pub fn of_opaque(scene: &Scene, positions: &[Vec3]) -> Option<Self> {
+        Self::of_frames(scene, positions, |_| true)
+    }
+
+    /// Rays against the opaque triangles that never move; `None` where there are none.
+    pub fn of_static(scene: &Scene, positions: &[Vec3]) -> Option<Self> {
+        Self::of_frames(scene, positions, |frame| frame == 0)
+    }
+
+    /// Rays against the opaque triangles whose moving frame passes `included`.
+    fn of_frames(scene: &Scene, positions: &[Vec3], included: impl Fn(usize) -> bool) -> Option<Self> {
         let opaque = scene.indices[..scene.opaque_end as usize].chunks_exact(3);
-        let opaque = opaque.filter(|t| !only_static || scene.vertices[t[0] as usize].frame() == 0);
+        let opaque = opaque.filter(|t| included(scene.vertices[t[0] as usize].frame()));
         let corners = opaque.clone().map(|t| t[0]).collect();
         let triangles: Vec<Triangle> = opaque
             .map(|t| {
@@ -118,7 +128,7 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
     let (positions, normals) = start_geometry(scene, exhibit);
     let groups = groups(&positions, &normals, radius);
     let rays = CORNER_RAYS.min((MAX_RAYS / groups.len().max(1)) as u32);
-    let Some(caster) = (rays >= MIN_RAYS).then(|| RayCaster::new(scene, &positions, false)).flatten() else { return };
+    let Some(caster) = (rays >= MIN_RAYS).then(|| RayCaster::of_opaque(scene, &positions)).flatten() else { return };
     let directions = cosine_directions(rays);
     let seen = in_parallel(&groups, |group| {
         let i = group[0] as usize;
@@ -146,7 +156,7 @@ pub(super) fn groups(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Vec<V
 pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane; 2], radius: f32) -> Vec<u8> {
     let count = (PLANE_MAP * PLANE_MAP) as usize;
     let (positions, _) = start_geometry(scene, exhibit);
-    let Some(caster) = RayCaster::new(scene, &positions, true) else { return vec![255; 2 * count] };
+    let Some(caster) = RayCaster::of_static(scene, &positions) else { return vec![255; 2 * count] };
     let directions = cosine_directions(TEXEL_RAYS);
     let texels: Vec<(usize, Vec2)> = (0..2 * count)
         .map(|i| {

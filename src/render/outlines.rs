@@ -31,12 +31,16 @@ const CAP_SHARE: f32 = 0.75;
 pub(super) struct Plate {
     /// Index of the batch that draws it.
     pub batch: usize,
+    /// Index of the frame that carries it: 0 for static plates, else one above that of the body.
     pub frame: usize,
+    /// Merged vertices, m.
     pub corners: Vec<Vec3>,
     /// Index of a scene vertex at each corner.
     vertices: Vec<u32>,
     faces: Vec<[u16; 3]>,
+    /// Unit normal of each face.
     pub normals: Vec<Vec3>,
+    /// All edges, each between two faces.
     pub edges: Vec<Edge>,
     /// Normal of its caps, unit.
     pub normal: Vec3,
@@ -49,8 +53,11 @@ pub(super) struct Plate {
 /// An edge from corner `a` to `b` in the direction of the first of its faces.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Edge {
+    /// Corner at which the edge begins.
     pub a: u16,
+    /// Corner at which the edge ends.
     pub b: u16,
+    /// Indices of the two faces that meet in it.
     pub faces: [u16; 2],
 }
 
@@ -79,6 +86,7 @@ pub(super) struct Outlines {
     appearances: Vec<Vec<Vertex>>,
     /// Per plate a texel (first edge, number of edges, 0, 0), then the edges: both ends, pixels from the upper left.
     pub contours: Vec<Vec4>,
+    /// Edges of all silhouettes.
     pub ribbons: Vec<Ribbon>,
     /// Batch and ribbons of each draw.
     pub draws: Vec<(usize, std::ops::Range<u32>)>,

@@ -21,11 +21,17 @@ const DEPTH_COMPARE: wgpu::CompareFunction = wgpu::CompareFunction::Greater;
 
 /// Bind group layouts.
 pub(super) struct Layouts {
+    /// Group 0: uniforms and buffers of a frame.
     pub frame: wgpu::BindGroupLayout,
+    /// Group 1: light on the exhibit.
     pub light: wgpu::BindGroupLayout,
+    /// Group 2: uniforms and textures of a material.
     pub material: wgpu::BindGroupLayout,
+    /// Rims of the plates that cast analytic shadows.
     pub rims: wgpu::BindGroupLayout,
+    /// Multisampled picture, for the resolve pass.
     pub resolve: wgpu::BindGroupLayout,
+    /// Resolved picture, for the upscale pass.
     pub upscale: wgpu::BindGroupLayout,
 }
 
@@ -40,15 +46,23 @@ pub(super) struct Pipelines {
     layout: wgpu::PipelineLayout,
     /// The six faces of the gallery.
     pub gallery: wgpu::RenderPipeline,
+    /// Backdrop of a picture without a gallery.
     pub backdrop: wgpu::RenderPipeline,
+    /// Wires.
     pub wires: wgpu::RenderPipeline,
+    /// Dust particles.
     pub dust: wgpu::RenderPipeline,
     /// One for the wall and one for the floor.
     pub plane_meshes: [wgpu::RenderPipeline; 2],
+    /// Shadows of wires on wall and floor.
     pub plane_wires: [wgpu::RenderPipeline; 2],
+    /// Analytic shadows of plates on wall and floor.
     pub plane_plates: [wgpu::RenderPipeline; 2],
+    /// Shadow map of the light that shades the exhibit itself.
     pub shadow_map: wgpu::RenderPipeline,
+    /// Averages the samples of each pixel.
     pub resolve: wgpu::RenderPipeline,
+    /// Enlarges the picture to the size of the target.
     pub upscale: wgpu::RenderPipeline,
 }
 
@@ -87,6 +101,7 @@ const DUST_VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
 };
 
 impl Layouts {
+    /// Creates all layouts.
     pub fn new(device: &wgpu::Device) -> Self {
         use wgpu::{
             BindingType, BufferBindingType, SamplerBindingType, ShaderStages, TextureSampleType, TextureViewDimension,

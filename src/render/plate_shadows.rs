@@ -29,9 +29,9 @@ const OUTLINE_TOLERANCE: f32 = 0.0005;
 /// Tolerances of outline simplification, m; the first whose result is within [`OUTLINE_TOLERANCE`] is used.
 const SIMPLIFY_TOLERANCES: [f32; 4] = [0.0008, 0.0006, 0.0004, 0.0002];
 /// Sine of the slope from which a face counts as facing up or down.
-const SLOPE: f32 = 0.05;
+const MIN_FACING_SINE: f32 = 0.05;
 /// Largest relative difference of the areas within both rims.
-const SAME_AREA: f32 = 0.02;
+const AREA_TOLERANCE: f32 = 0.02;
 
 /// A flat plate prepared for shadows, in the frame of its body.
 pub(super) struct ShadowPlate {
@@ -76,8 +76,8 @@ impl ShadowPlate {
         let (x, y) = normal.any_orthonormal_pair();
         let axes = [x, y, normal];
         let slope = |face: u16| plate.normals[usize::from(face)].dot(normal);
-        let upper = chains(&plate.edges, |face| slope(face) > SLOPE)?;
-        let lower = chains(&plate.edges, |face| slope(face) < -SLOPE)?;
+        let upper = chains(&plate.edges, |face| slope(face) > MIN_FACING_SINE)?;
+        let lower = chains(&plate.edges, |face| slope(face) < -MIN_FACING_SINE)?;
         let height = |chains: &[Vec<u16>]| {
             let heights = chains.iter().flatten().map(|&i| plate.corners[usize::from(i)].dot(normal));
             let (low, high) = heights.fold((f32::INFINITY, f32::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
@@ -89,7 +89,7 @@ impl ShadowPlate {
         };
         let [lower, upper] = [lower, upper].map(|chains| chains.iter().map(flat).collect::<Vec<_>>());
         let [below, above] = [&lower, &upper].map(|loops| loops.iter().map(|points| area(points)).sum::<f32>());
-        if above <= 0.0 || (above + below).abs() > SAME_AREA * above {
+        if above <= 0.0 || (above + below).abs() > AREA_TOLERANCE * above {
             return None;
         }
         let loops = SIMPLIFY_TOLERANCES.iter().find_map(|&reach| {

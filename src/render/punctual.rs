@@ -11,6 +11,7 @@ pub(super) const MAX_PUNCTUAL: usize = 8;
 /// A punctual light in the frame of its body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Punctual {
+    /// Index of the frame that carries it: 0 for static lights, else one above that of the body.
     pub frame: usize,
     position: Vec3,
     axis: Vec3,
@@ -23,12 +24,19 @@ pub(super) struct Punctual {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct PunctualUniform {
+    /// Position, world, m.
     pub position: Vec3,
+    /// Kind of the light: 0 directional, 1 point, 2 spot.
     pub kind: f32,
+    /// Intensity, or irradiance of a directional light, linear RGB.
     pub color: Vec3,
+    /// Distance at which the light has faded out, m; 0 where it has no end.
     pub range: f32,
+    /// Direction of the light, world, unit.
     pub axis: Vec3,
+    /// Fills the row; unused.
     pub spare: f32,
+    /// Cosines of the half-angles at which a spotlight begins to fade and at which it ends; the rest is unused.
     pub cone: Vec4,
 }
 

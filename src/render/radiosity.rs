@@ -95,7 +95,7 @@ impl Gallery {
             let away = point - lamp.position;
             let d2 = away.length_squared().max(1e-6);
             let direction = away / d2.sqrt();
-            let t = ((direction.dot(lamp.axis) - lamp.cone.1) / (lamp.cone.0 - lamp.cone.1)).clamp(0.0, 1.0);
+            let t = ((direction.dot(lamp.axis) - lamp.cos_outer) / (lamp.cos_inner - lamp.cos_outer)).clamp(0.0, 1.0);
             sum += lamp.intensity * (t * t * (3.0 - 2.0 * t) * (-direction).dot(normal).max(0.0) / d2);
         }
         sum

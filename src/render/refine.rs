@@ -102,8 +102,8 @@ mod tests {
         let mut sides: HashMap<_, i32> = HashMap::new();
         for t in scene.indices.chunks_exact(3) {
             for (a, b) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
-                let way = scene.vertices[a as usize].position.distance(scene.vertices[b as usize].position);
-                assert!(way <= LONGEST, "{way} m");
+                let length = scene.vertices[a as usize].position.distance(scene.vertices[b as usize].position);
+                assert!(length <= LONGEST, "{length} m");
                 *sides.entry((key(a).min(key(b)), key(a).max(key(b)))).or_default() += 1;
             }
         }

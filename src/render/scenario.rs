@@ -179,7 +179,12 @@ impl Rectangle {
         let x = up.cross(forward).normalize();
         let y = forward.cross(x);
         let radiance = self.power_w / (std::f32::consts::PI * self.width * self.height);
-        AreaLight { center, half: (x * 0.5 * self.width, y * 0.5 * self.height), radiance: Vec3::splat(radiance) }
+        AreaLight {
+            center,
+            half_width: x * 0.5 * self.width,
+            half_height: y * 0.5 * self.height,
+            radiance: Vec3::splat(radiance),
+        }
     }
 }
 

@@ -30,7 +30,9 @@ pub(super) enum SurfaceKind {
 /// The properties that determine the pipeline of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PipelineKey {
+    /// How the surface is drawn.
     pub kind: SurfaceKind,
+    /// Are both sides drawn?
     pub double_sided: bool,
     /// Has it a clear coat or a sheen?
     pub layers: bool,
@@ -47,16 +49,20 @@ pub(super) struct Batch {
     pub indices: std::ops::Range<u32>,
     /// Index of the material; one past the last is the default.
     pub material: usize,
+    /// Properties that select its pipeline.
     pub pipeline: PipelineKey,
     /// Centre of the triangles in their frame, to sort blended batches.
     pub center: Vec3,
+    /// Index of the frame that carries it: 0 for static batches, else one above that of the body.
     pub frame: usize,
 }
 
 /// All meshes and lights of an exhibit.
 #[derive(Default)]
 pub(super) struct Scene {
+    /// Vertices of all meshes, each in the frame that carries it.
     pub vertices: Vec<Vertex>,
+    /// Triangles, batch after batch.
     pub indices: Vec<u32>,
     /// Opaque batches first, of these the plates with analytic shadows, then glass, then blended ones.
     pub batches: Vec<Batch>,
@@ -66,6 +72,7 @@ pub(super) struct Scene {
     pub opaque_end: u32,
     /// End of the indices that cast plane shadows; those from `plate_casters_end` on do so as triangles.
     pub casters_end: u32,
+    /// Punctual lights of the model.
     pub lights: Vec<Punctual>,
     /// Plates with analytic silhouettes.
     pub plates: Vec<Plate>,
@@ -76,6 +83,7 @@ pub(super) struct Scene {
 }
 
 impl Scene {
+    /// Collects the meshes and lights of an exhibit.
     pub fn new(exhibit: &Exhibit) -> Result<Self, RenderError> {
         if exhibit.bodies.len() >= MAX_FRAMES {
             return Err(RenderError::TooManyBodies { count: exhibit.bodies.len(), limit: MAX_FRAMES - 1 });

@@ -23,7 +23,9 @@ pub(super) struct ReceivingPlane {
     pub origin: Vec3,
     /// Unit vectors along texture u and v.
     pub u: Vec3,
+    /// Unit vector along texture v.
     pub v: Vec3,
+    /// Unit normal, towards the exhibit.
     pub normal: Vec3,
     /// Size along u and v, m.
     pub size: Vec2,
@@ -64,7 +66,7 @@ impl ReceivingPlane {
         normal: Vec3,
         resolution: u32,
     ) -> Self {
-        let bounds = exhibit.bounds(false);
+        let bounds = exhibit.bounds();
         let half = if bounds.is_empty() { Vec3::splat(0.5) } else { (0.5 * (bounds.max - bounds.min)).as_vec3() };
         let swept = half.with_y(0.0).length();
         let half = Vec3::new(swept, half.y, swept) * 1.08;
@@ -103,6 +105,7 @@ fn gallery_axis(gallery: &Gallery, axis: Vec3) -> Vec3 {
 /// The shadow-map camera at the light that shades the exhibit itself.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShadowMapCamera {
+    /// View and projection of the light.
     pub clip_from_world: Mat4,
     /// Radius of the light, m.
     pub light_radius: f32,
@@ -110,6 +113,7 @@ pub(super) struct ShadowMapCamera {
     pub texel: f32,
     /// Distances of reversed depth 1 and 0, m.
     pub near: f32,
+    /// Distance of reversed depth 0, m.
     pub far: f32,
 }
 
@@ -129,7 +133,7 @@ impl ShadowMapCamera {
     ) -> Self {
         let (eye, light_radius) = match &lighting.area_light {
             Some(area) => {
-                let surface = 4.0 * area.half.0.cross(area.half.1).length();
+                let surface = 4.0 * area.half_width.cross(area.half_height).length();
                 (area.center, (surface / std::f32::consts::PI).sqrt())
             }
             None => (gallery.lamps[0].position, gallery.lamps[0].radius),

@@ -21,11 +21,17 @@ pub(super) const MAX_DUST: usize = 4096;
 
 /// Resources that all exhibits share on one device.
 pub(super) struct SharedResources {
+    /// Layouts of all bind groups.
     pub layouts: Layouts,
+    /// Pipelines of all passes.
     pub pipelines: Pipelines,
+    /// Uniforms of a frame.
     pub globals_buffer: wgpu::Buffer,
+    /// Matrices of all frames that carry meshes.
     pub frames_buffer: wgpu::Buffer,
+    /// Dust particles, one instance each.
     pub dust_buffer: wgpu::Buffer,
+    /// Bind group of the uniforms and the matrices.
     pub frame_group: wgpu::BindGroup,
     /// Split-sum table.
     pub table: wgpu::TextureView,
@@ -42,6 +48,7 @@ pub(super) struct SharedResources {
 }
 
 impl SharedResources {
+    /// Creates them on a device.
     pub fn new(gpu: &Gpu, options: &Options) -> Self {
         let device = &gpu.device;
         let layouts = Layouts::new(device);

@@ -8,19 +8,28 @@ use wgpu::util::DeviceExt;
 use super::Gpu;
 use soffio_exhibit::model::Image;
 
+/// What the codes of an image mean.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum ColorSpace {
+    /// Colours in the sRGB transfer function.
+    Srgb,
+    /// Numbers as they are: roughness, normals.
+    Linear,
+}
+
 /// One white texel.
 pub(super) fn white(gpu: &Gpu) -> wgpu::TextureView {
-    upload(gpu, &Image { width: 1, height: 1, rgba: vec![255; 4] }, false)
+    upload(gpu, &Image { width: 1, height: 1, rgba: vec![255; 4] }, ColorSpace::Linear)
 }
 
 /// A texture of an image with all its mip levels.
-pub(super) fn upload(gpu: &Gpu, image: &Image, srgb: bool) -> wgpu::TextureView {
-    texture(gpu, std::slice::from_ref(image), srgb).create_view(&Default::default())
+pub(super) fn upload(gpu: &Gpu, image: &Image, space: ColorSpace) -> wgpu::TextureView {
+    texture(gpu, std::slice::from_ref(image), space).create_view(&Default::default())
 }
 
 /// An array texture of images of one size, each with all its mip levels.
-pub(super) fn texture(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::Texture {
-    let chains: Vec<Vec<Vec<u8>>> = layers.iter().map(|image| mip_chain(image, srgb)).collect();
+pub(super) fn texture(gpu: &Gpu, layers: &[Image], space: ColorSpace) -> wgpu::Texture {
+    let chains: Vec<Vec<Vec<u8>>> = layers.iter().map(|image| mip_chain(image, space)).collect();
     let (width, height) = layers.first().map_or((1, 1), |image| (image.width, image.height));
     gpu.device.create_texture_with_data(
         &gpu.queue,
@@ -30,7 +39,10 @@ pub(super) fn texture(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::Texture 
             mip_level_count: chains.first().map_or(1, |levels| levels.len() as u32),
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: if srgb { wgpu::TextureFormat::Rgba8UnormSrgb } else { wgpu::TextureFormat::Rgba8Unorm },
+            format: match space {
+                ColorSpace::Srgb => wgpu::TextureFormat::Rgba8UnormSrgb,
+                ColorSpace::Linear => wgpu::TextureFormat::Rgba8Unorm,
+            },
             usage: wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         },
@@ -40,12 +52,13 @@ pub(super) fn texture(gpu: &Gpu, layers: &[Image], srgb: bool) -> wgpu::Texture 
 }
 
 /// All mip levels down to one pixel, each the box average of the one before.
-fn mip_chain(image: &Image, srgb: bool) -> Vec<Vec<u8>> {
+fn mip_chain(image: &Image, space: ColorSpace) -> Vec<Vec<u8>> {
+    let is_srgb = space == ColorSpace::Srgb;
     let (mut width, mut height) = (image.width as usize, image.height as usize);
     let mut levels = vec![image.rgba.clone()];
     levels[0].resize(width * height * 4, 255);
     let decode: Vec<f32> =
-        (0..=255).map(|c| if srgb { to_linear(c as f32 / 255.0) } else { c as f32 / 255.0 }).collect();
+        (0..=255).map(|c| if is_srgb { to_linear(c as f32 / 255.0) } else { c as f32 / 255.0 }).collect();
     while width > 1 || height > 1 {
         let above = &levels[levels.len() - 1];
         let (w, h) = ((width / 2).max(1), (height / 2).max(1));
@@ -60,7 +73,7 @@ fn mip_chain(image: &Image, srgb: bool) -> Vec<Vec<u8>> {
                         sum += if channel < 3 { decode[code as usize] } else { code as f32 / 255.0 };
                     }
                     let mean = 0.25 * sum;
-                    let value = if srgb && channel < 3 { to_srgb(mean) } else { mean };
+                    let value = if is_srgb && channel < 3 { to_srgb(mean) } else { mean };
                     level.push((value * 255.0 + 0.5) as u8);
                 }
             }
@@ -89,9 +102,9 @@ mod tests {
     fn colours_are_averaged_in_linear_light_and_data_as_it_is() {
         let image = Image { width: 2, height: 1, rgba: vec![0, 0, 0, 255, 255, 255, 255, 255] };
         // Half the light of white is the sRGB code 188.
-        assert_eq!(mip_chain(&image, true)[1], [188, 188, 188, 255]);
-        assert_eq!(mip_chain(&image, false)[1], [128, 128, 128, 255]);
+        assert_eq!(mip_chain(&image, ColorSpace::Srgb)[1], [188, 188, 188, 255]);
+        assert_eq!(mip_chain(&image, ColorSpace::Linear)[1], [128, 128, 128, 255]);
         let odd = Image { width: 5, height: 3, rgba: vec![7; 60] };
-        assert_eq!(mip_chain(&odd, false).iter().map(Vec::len).collect::<Vec<_>>(), [60, 8, 4]);
+        assert_eq!(mip_chain(&odd, ColorSpace::Linear).iter().map(Vec::len).collect::<Vec<_>>(), [60, 8, 4]);
     }
 }

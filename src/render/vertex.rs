@@ -7,11 +7,15 @@ use glam::Vec3;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Vertex {
+    /// Position, m.
     pub position: Vec3,
+    /// Unit normal.
     pub normal: Vec3,
+    /// Unit tangent, and the sign of the bitangent.
     pub tangent: [f32; 4],
     /// Both sets of texture coordinates.
     pub uv: [f32; 4],
+    /// Vertex colour, linear RGBA.
     pub color: [f32; 4],
     /// Index of the frame in the low 16 bits, then ambient visibility, then opacity to lamps, 8 bits each.
     pub tag: u32,

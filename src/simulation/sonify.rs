@@ -1,6 +1,6 @@
 //! Sonification: position of sounds about the listener and on a body, and the sound of the wind.
 
-use soffio_exhibit::{Exhibit, SoundBinding, SoundTrigger, View};
+use soffio_exhibit::{Exhibit, ImpactFrame, SoundBinding, SoundTrigger, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, atan2};
 use soffio_sound::{SoundCommand, WindExposure, WindSound};
@@ -48,7 +48,7 @@ impl AudioListener {
 
 /// A point of a body's node frame as coordinates along the two half extents of its sound, −1…1.
 pub fn strike_position(exhibit: &Exhibit, sound: &SoundBinding, local: DVec3) -> [f32; 2] {
-    let (first, second, center) = sound.frame;
+    let ImpactFrame { longest: first, middle: second, center } = sound.frame;
     let half = exhibit.instruments[sound.instrument].body.half_extents;
     let along = |axis: DVec3, half: f64| ((local - center).dot(axis) / half.max(1e-6)).clamp(-1.0, 1.0) as f32;
     [along(first, half[0]), along(second, half[1])]

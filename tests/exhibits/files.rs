@@ -15,7 +15,7 @@ const SINGLE: f64 = 1e-6;
 
 pub fn loads_without_a_warning(id: &str) {
     let folder = exhibit::resolve(id).expect("an id that was listed");
-    let loaded = exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}:\n{}", report.render(false)));
+    let loaded = exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}:\n{}", report.to_text()));
     assert!(loaded.warnings.is_empty(), "{id}: {:#?}", loaded.warnings);
     assert_eq!(loaded.id, id);
 }
@@ -59,7 +59,7 @@ pub fn its_model_reads_back_as_it_was_written(id: &str) {
     assert_eq!(drawn(before).len(), drawn(&after).len(), "{id}");
 }
 
-pub fn what_holds_it_stands_in_its_mujoco_model_or_is_named_as_left_out(id: &str) {
+pub fn its_constraints_are_in_its_mujoco_model_or_named_as_omitted(id: &str) {
     let exhibit = load(id);
     let mjcf::Exported { text, omitted } = mjcf::export(&exhibit);
     let output = |name: &str| {

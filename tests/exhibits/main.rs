@@ -14,12 +14,12 @@ use assert_no_alloc::AllocDisabler;
 use libtest_mimic::{Arguments, Trial};
 use soffio_exhibit::{self as exhibit, Exhibit};
 
+mod assembly;
 mod expected;
 mod files;
-mod gather;
-mod hands;
 mod loads;
 mod motion;
+mod pointer_grabs;
 mod repeatable;
 mod robust;
 mod tally;
@@ -55,7 +55,7 @@ const PROPERTIES: [Property; 20] = properties![
     files::loads_without_a_warning,
     files::has_its_picture_in_the_readme,
     files::its_model_reads_back_as_it_was_written,
-    files::what_holds_it_stands_in_its_mujoco_model_or_is_named_as_left_out,
+    files::its_constraints_are_in_its_mujoco_model_or_named_as_omitted,
     files::its_table_of_labels_reads_back,
     expected::is_as_its_folder_says,
     // Writes the file that the case above compares with.
@@ -63,22 +63,22 @@ const PROPERTIES: [Property; 20] = properties![
     repeatable::a_run_repeats_itself_within_a_process,
     repeatable::a_reset_gives_the_first_run_again,
     repeatable::a_step_asks_for_no_memory_once_it_is_warm,
-    gather::gathers_itself_in_a_few_seconds,
+    assembly::assembles_in_a_few_seconds,
     motion::a_change_of_motion_moves_nothing_by_itself,
     motion::a_change_of_motion_is_not_heard_as_a_click,
     motion::the_mode_is_an_input_so_a_replay_repeats_it,
-    motion::moved_by_places_it_does_not_fault_and_asks_for_no_memory,
-    robust::a_number_that_is_none_is_found_and_the_figure_put_back,
+    motion::position_based_motion_does_not_fault_and_asks_for_no_memory,
+    robust::a_nan_is_found_and_the_mechanism_restored,
     robust::a_hundred_times_the_gravity_is_borne,
-    hands::the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle,
-    hands::no_handling_breaks_anything,
+    pointer_grabs::the_first_body_on_a_view_ray_is_found_as_by_testing_every_triangle,
+    pointer_grabs::grabs_cause_no_fault,
     loads::no_step_does_more_work_than_the_bound,
 ];
 
 /// Parts `hands` and `places` of tests/check.sh --long.
 const LONG: [Property; 2] = properties![
-    hands::no_handling_breaks_anything_in_twenty_seconds(ignored),
-    motion::moved_by_places_for_twenty_seconds_it_does_not_fault(ignored),
+    pointer_grabs::grabs_cause_no_fault_in_twenty_seconds(ignored),
+    motion::position_based_motion_of_twenty_seconds_does_not_fault(ignored),
 ];
 
 /// An exhibit, read once for all its cases: nothing changes it.
@@ -89,7 +89,7 @@ fn load(id: &str) -> Arc<Exhibit> {
         return exhibit.clone();
     }
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))));
+    let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())));
     read().insert(id.to_owned(), exhibit.clone());
     exhibit
 }
@@ -109,7 +109,7 @@ fn main() -> ExitCode {
         })
     });
     let conclusion = libtest_mimic::run(&arguments, cases.collect());
-    let tallies = [&motion::QUIET_CHANGES, &motion::HEARD_CHANGES, &hands::RAYS];
+    let tallies = [&motion::QUIET_CHANGES, &motion::HEARD_CHANGES, &pointer_grabs::RAYS];
     let enough = tallies.map(|tally| tally.is_enough(ids.len())) == [true; 3];
     if enough { conclusion.exit_code() } else { ExitCode::FAILURE }
 }

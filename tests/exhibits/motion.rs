@@ -130,11 +130,11 @@ pub fn the_mode_is_an_input_so_a_replay_repeats_it(id: &str) {
 const WARM: usize = 240;
 
 /// The allocator that watches is that of `main.rs`; it acts in debug builds.
-pub fn moved_by_places_it_does_not_fault_and_asks_for_no_memory(id: &str) {
+pub fn position_based_motion_does_not_fault_and_asks_for_no_memory(id: &str) {
     moved_by_places(id, 5);
 }
 
-pub fn moved_by_places_for_twenty_seconds_it_does_not_fault(id: &str) {
+pub fn position_based_motion_of_twenty_seconds_does_not_fault(id: &str) {
     moved_by_places(id, 20);
 }
 

@@ -34,7 +34,7 @@ fn faults(events: &[Event]) -> Vec<&Event> {
     events.iter().filter(|event| event.kind == EventKind::Fault).collect()
 }
 
-pub fn a_number_that_is_none_is_found_and_the_figure_put_back(id: &str) {
+pub fn a_nan_is_found_and_the_mechanism_restored(id: &str) {
     type Harm = fn(&mut RigidBody);
     let harms: [(&str, Harm); 5] = [
         ("velocity", |body| body.velocity.x = f64::NAN),

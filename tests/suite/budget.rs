@@ -44,7 +44,7 @@ fn loads_blow_drag_and_scatter_and_repeat_to_the_bit() {
 }
 
 #[test]
-fn a_hand_takes_every_body_of_a_small_exhibit_in_turn() {
+fn a_pointer_grab_takes_every_body_of_a_small_exhibit_in_turn() {
     let exhibit = shipped("plates");
     let mut run = LoadRun::new(&exhibit, StressLoad::Drag);
     let mut takes = 0;
@@ -59,7 +59,7 @@ fn a_hand_takes_every_body_of_a_small_exhibit_in_turn() {
 }
 
 #[test]
-fn the_worst_step_of_several_loads_is_told_by_its_load() {
+fn the_worst_step_of_several_loads_is_reported_with_its_load() {
     let times = |load, us: &[f64]| LoadTimes { load, times: us.iter().copied().collect::<StepTimes>() };
     let all = [
         times(StressLoad::Breath(1.0), &[1.0, 2.0]),
@@ -73,7 +73,7 @@ fn the_worst_step_of_several_loads_is_told_by_its_load() {
 }
 
 #[test]
-fn a_late_step_is_told_with_its_load_and_cause() {
+fn a_late_step_is_reported_with_its_load_and_cause() {
     let exhibit = shipped("wind-chimes");
     // No step is as short as that: each kind of load ends with its first one.
     let found = check_within(&exhibit, 0.0, f64::INFINITY);
@@ -102,7 +102,7 @@ fn a_check_of_steps_ends_in_its_time() {
 }
 
 #[test]
-fn loops_of_a_figure_are_a_cause() {
+fn closed_loops_of_a_mechanism_are_a_cause() {
     let exhibit = shipped("breath-clock");
     let found = check_within(&exhibit, 0.0, f64::INFINITY);
     assert!(found.late.iter().all(|late| late.cause.contains("closed loops: 1 joint")), "{found:?}");

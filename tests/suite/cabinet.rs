@@ -33,7 +33,7 @@ const NEW: [&str; 8] = [
 
 fn load(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn steps(seconds: f64) -> usize {
@@ -189,7 +189,7 @@ fn ten_minutes_of_hard_breath_break_nothing_in_the_cabinet() {
 }
 
 #[test]
-fn each_mallet_strikes_its_own_by_a_breath() {
+fn each_mallet_strikes_its_own_sounding_body_in_a_breath() {
     for thing in ["Bell", "Drum", "Metal", "Wood"] {
         let mut visit = Visit::new("strikers", Settings::default());
         visit.aim(&format!("Sail{thing}"));
@@ -316,7 +316,7 @@ fn crossed_axes_turn_as_their_formula_says() {
 }
 
 #[test]
-fn what_hangs_on_the_moving_nail_never_leaves_it() {
+fn a_body_on_the_moving_nail_never_leaves_it() {
     const CLOSED: f64 = 1e-9;
     let mut visit = Visit::new("moving-path", Settings::default());
     visit.aim("Wings");

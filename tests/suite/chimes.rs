@@ -11,7 +11,7 @@ const RATE: u32 = 48_000;
 
 fn shipped(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn steps(seconds: f64) -> usize {

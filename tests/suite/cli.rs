@@ -143,7 +143,7 @@ fn a_missing_exhibit_is_named_with_those_there_are() {
 }
 
 #[test]
-fn a_broken_sidecar_is_told_by_file_line_reason_and_remedy() {
+fn a_broken_sidecar_is_reported_with_file_line_reason_and_remedy() {
     for (find, replace, words) in [
         ("[scene]", "[scene", &["exhibit.toml:", "not TOML"][..]),
         ("loss_factor", "loss_facter", &["exhibit.toml:", "unknown key \"loss_facter\"", "\"loss_factor\""]),
@@ -167,7 +167,7 @@ fn a_broken_sidecar_is_told_by_file_line_reason_and_remedy() {
 }
 
 #[test]
-fn a_truncated_model_is_told_where_the_sidecar_names_it() {
+fn a_truncated_model_is_reported_where_the_sidecar_names_it() {
     let desk = Desk::new();
     let folder = desk.spoiled("", "");
     let model = std::fs::read(fish().join("steel-fish.glb")).expect("shipped");
@@ -298,7 +298,7 @@ fn the_kiosk_without_a_display_plays_a_breath_and_names_its_files() {
 fn devices_and_doctor_speak_json() {
     let desk = Desk::new();
     let devices = desk.soffio(&["devices", "--json"]);
-    // A machine without a sound system is a missing driver, told in words.
+    // A machine without a sound system is a missing driver, reported in a sentence.
     if devices.code == Some(3) {
         devices.refused(3, &[]);
     } else {
@@ -350,10 +350,10 @@ fn the_shipped_files_are_good() {
 fn a_configuration_is_checked_where_it_stands() {
     let desk = Desk::new();
     desk.write("site.toml", "[breath]\ngian = 2\ndistance_m = 30.0\n");
-    let told = desk.soffio(&["check", "site.toml"]);
-    assert_eq!(told.code, Some(1));
+    let output = desk.soffio(&["check", "site.toml"]);
+    assert_eq!(output.code, Some(1));
     for word in ["site.toml:2:1", "breath.gian", "`gain`", "site.toml:3:14", "30", "2 problems"] {
-        assert!(told.err.contains(word), "{word} is missing: {}", told.err);
+        assert!(output.err.contains(word), "{word} is missing: {}", output.err);
     }
     let json = desk.soffio(&["check", "site.toml", "--json"]);
     let problems: Value = serde_json::from_str(&json.out).expect("JSON");
@@ -364,12 +364,12 @@ fn a_configuration_is_checked_where_it_stands() {
 fn explain_says_where_each_value_comes_from() {
     let desk = Desk::new();
     let run = desk.soffio(&["explain", text(&fish()), "Boom"]);
-    let told = run.done();
+    let output = run.done();
     for words in ["body Boom", "[exhibit.toml:", "[derived: mesh × 7850 kg/m³]", "constraint cup-on-point", "boom-rod"]
     {
-        assert!(told.contains(words), "no \"{words}\" in\n{told}");
+        assert!(output.contains(words), "no \"{words}\" in\n{output}");
     }
-    assert!(!told.contains("body RedPlate"), "{told}");
+    assert!(!output.contains("body RedPlate"), "{output}");
 }
 
 #[test]
@@ -424,7 +424,7 @@ fn a_run_is_summed_up_in_the_promised_fields_and_leaves_what_was_asked() {
 }
 
 #[test]
-fn the_laws_and_motion_by_places_are_compared_in_numbers_a_table_and_a_picture() {
+fn dynamics_and_position_based_motion_are_compared_in_numbers_a_table_and_a_picture() {
     let desk = Desk::new();
     let breath = fish().join("breaths/strong.wav");
     let exhibit = fish();

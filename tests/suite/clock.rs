@@ -19,7 +19,7 @@ const TEETH: f64 = 42.0;
 
 fn shipped() -> Arc<Exhibit> {
     let folder = exhibit::resolve("terry-clock").unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text())))
 }
 
 /// The clock without air.
@@ -135,7 +135,7 @@ fn it_beats_6720_times_an_hour() {
     const OFF: f64 = 1.0;
     // It is rated where it hangs, as what the air takes from its swing is a part of its rate, and over an hour with its strike:
     // what the strike's release takes from the train is one too.
-    let Kept { beats, .. } = in_the_room(3600.0, 0.0, false);
+    let Kept { beats, .. } = in_ambient_air(3600.0, 0.0, false);
     let rate = rate(&beats);
     println!("{} beats in an hour, {rate} by its swings", beats.len());
     assert!((beats.len() as f64 - RATE).abs() <= OFF && (rate - RATE).abs() < OFF, "{rate} beats an hour");
@@ -241,7 +241,7 @@ fn apart_from_awake(asleep: &Kept, push: f64) -> f64 {
     /// Of the time: all but the strike itself, and what it takes the hammer to come to rest.
     const SLEEPS: f64 = 0.95;
     let steps = TO_ELEVEN * STEPS_PER_SECOND as f64;
-    let awake = in_the_room(TO_ELEVEN, push, true);
+    let awake = in_ambient_air(TO_ELEVEN, push, true);
     let slept = asleep.slept;
     assert!(awake.slept == 0 && slept as f64 > SLEEPS * steps, "slept in {slept} steps of {steps}");
     assert_eq!((asleep.blows.len(), asleep.beats.len()), (awake.blows.len(), awake.beats.len()));
@@ -263,7 +263,7 @@ fn it_beats_and_strikes_as_if_its_strike_never_slept() {
     const ROUNDINGS: [f64; 4] = [0.0, 1e-12, 2e-12, 3e-12];
     let mut beats: Vec<f64> = std::thread::scope(|scope| {
         let runs =
-            ROUNDINGS.map(|push| scope.spawn(move || apart_from_awake(&in_the_room(TO_ELEVEN, push, false), push)));
+            ROUNDINGS.map(|push| scope.spawn(move || apart_from_awake(&in_ambient_air(TO_ELEVEN, push, false), push)));
         runs.into_iter().map(|run| run.join().expect("a pair that is alike")).collect()
     });
     beats.sort_by(f64::total_cmp);
@@ -285,9 +285,9 @@ struct Kept {
     open: f64,
 }
 
-/// The clock in the air of the room, which its fly needs, left to itself or (`awake`) disturbed before each step, so that
-/// nothing of it sleeps; its pendulum begins with a push (rad/s).
-fn in_the_room(seconds: f64, push: f64, awake: bool) -> Kept {
+/// The clock in the air of the gallery, which its fly needs: left to itself, or (`awake`) disturbed before each step, so
+/// that nothing of it sleeps. Its pendulum begins with a push (rad/s).
+fn in_ambient_air(seconds: f64, push: f64, awake: bool) -> Kept {
     let exhibit = shipped();
     let index = |name: &str| exhibit.bodies.iter().position(|body| body.name == name).expect("a body");
     let (hammer, pendulum) = (index("Hammer"), index("Pendulum"));
@@ -460,7 +460,7 @@ const PUNCTUAL: f64 = 0.1;
 fn it_strikes_eleven_at_eleven_as_if_its_strike_never_slept() {
     /// Whatever hits what, m.
     const CLOSED: f64 = 1e-9;
-    let kept = in_the_room(TO_ELEVEN, 0.0, false);
+    let kept = in_ambient_air(TO_ELEVEN, 0.0, false);
     apart_from_awake(&kept, 0.0);
     let Kept { blows, open, .. } = kept;
     assert_eq!(blows.len(), 11, "{blows:?}");
@@ -479,7 +479,7 @@ fn it_strikes_eleven_at_eleven_as_if_its_strike_never_slept() {
 fn in_half_a_day_it_strikes_seventy_eight_blows() {
     /// s a day.
     const DAILY: f64 = 1.0;
-    let Kept { blows, beats, .. } = in_the_room(12.0 * 3600.0, 0.0, false);
+    let Kept { blows, beats, .. } = in_ambient_air(12.0 * 3600.0, 0.0, false);
     let hours = struck(&blows);
     println!("{hours:?}");
     assert_eq!(blows.len(), 78, "{hours:?}");

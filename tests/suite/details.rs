@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3};
 use soffio_exhibit::model::{
-    self, Appearance, Details, Image, Levels, Mesh, Model, Node, Primitive, Sampler, TextureUse, Wrap,
+    self, Appearance, Details, Image, Levels, Mesh, Model, Node, Primitive, Sampler, ScaledTexture, TextureUse, Wrap,
 };
 use soffio_exhibit::{Exhibit, View};
 use soffio_render::FrameInput;
@@ -191,7 +191,8 @@ fn a_texel_is_seen_as_the_factor_that_it_makes() {
 fn the_coats_normals_bend_its_mirror_alone() {
     let (flat, leaning) = ([128, 128, 255, 255], [230, 128, 200, 255]);
     let coated = |coat: f32, texel: [u8; 4]| {
-        let details = Details { coat_normal: Some((texture(0), 1.0)), ..Details::default() };
+        let details =
+            Details { coat_normal: Some(ScaledTexture { texture: texture(0), scale: 1.0 }), ..Details::default() };
         picture(Appearance { coat, coat_roughness: 0.1, details, ..varnish() }, vec![halves(texel, texel)])
     };
     let (Some(plain), Some(flat_one), Some(bent)) =

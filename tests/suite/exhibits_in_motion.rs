@@ -19,7 +19,7 @@ const G: f64 = 9.81;
 
 fn shipped(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn still() -> Settings {

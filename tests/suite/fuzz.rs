@@ -24,7 +24,7 @@ fn seeds_are_good_files() {
     let stored = std::fs::read("tests/fuzz/seeds/model/figure.glb").expect("a seed");
     assert!(stored == boom_and_plate(), "seeds/model/figure.glb is not the figure that the tests make");
     for file in files("seeds", "model") {
-        exhibit::load_model(&file).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        exhibit::load_model(&file).unwrap_or_else(|report| panic!("{}", report.to_text()));
     }
     for file in files("seeds", "recording") {
         assert!(wav::read(&file).is_ok_and(|recording| recording.samples.len() == 64), "{file:?}");
@@ -32,12 +32,12 @@ fn seeds_are_good_files() {
     for file in files("seeds", "sidecar") {
         let folder = Folder::exhibit(&boom_and_plate(), "");
         folder.write(exhibit::SIDECAR, &std::fs::read(&file).expect("a seed"));
-        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
     }
 }
 
 #[test]
-fn what_was_found_once_is_borne() {
+fn inputs_that_once_failed_do_not_fail_again() {
     let mut tried = 0;
     for (kind, try_it) in inputs::KINDS {
         for file in ["seeds", "found"].iter().flat_map(|of| files(of, kind)) {
@@ -57,7 +57,7 @@ fn a_recording_of_impossible_bits_is_refused_with_a_reason() {
 }
 
 #[test]
-fn a_sound_of_a_body_whose_material_nobody_knows_is_told_and_not_looked_up() {
+fn a_sound_of_a_body_of_unknown_material_is_reported_and_not_looked_up() {
     let folder = Folder::exhibit(&boom_and_plate(), "");
     let torn = std::fs::read("tests/fuzz/found/sidecar/unknown-material-sounds.toml").expect("what was found");
     folder.write(exhibit::SIDECAR, &torn);

@@ -17,10 +17,10 @@ fn wrench(random: &mut Random) -> Vec6 {
 }
 
 #[test]
-fn trains_answer_each_other_as_the_whole_figure_does() {
+fn trains_respond_to_each_other_as_the_whole_mechanism_does() {
     // A going train with a clutch, an anchor that a pendulum is looped to, a striking train, weights, levers.
     let folder = exhibit::resolve("terry-clock").unwrap_or_else(|report| panic!("{report}"));
-    let clock = exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let clock = exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let bodies = start_dynamics(&clock, &Settings::default()).bodies;
     let kinematic = vec![false; bodies.len()];
     let [mut lean, mut whole] = [Method::Sparse, Method::Dense].map(|method| {

@@ -1,6 +1,7 @@
-//! The test suite: one binary, one module per room.
+//! The test suite: one binary, one module per subject.
 
 mod architecture;
+mod assembly;
 mod breath_command;
 mod budget;
 mod cabinet;
@@ -15,9 +16,7 @@ mod exhibit;
 mod exhibits_in_motion;
 mod exports;
 mod fuzz;
-mod gather;
 mod geared;
-mod hands;
 mod kiosk;
 mod loudness;
 mod mobiles;
@@ -28,6 +27,7 @@ mod penumbrae;
 mod picture_bars;
 #[cfg(feature = "kiosk")]
 mod pictures;
+mod pointer_grabs;
 mod privacy;
 mod procedural;
 mod realtime;

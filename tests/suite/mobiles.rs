@@ -9,7 +9,7 @@ use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, add_wrench};
 use soffio_math::{DMat3, DVec3, PI, atan2, rotation};
 use soffio_multibody::articulation::{Anchor, ConstraintKind};
-use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as Laws};
+use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as DynamicsSettings};
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_wind::SurfaceShape;
 use soffio_wind::breath::{Breath, SpreadLaw};
@@ -21,7 +21,7 @@ const SHEET: f64 = 0.02;
 
 fn shipped(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn body(exhibit: &Exhibit, name: &str) -> usize {
@@ -111,7 +111,7 @@ fn frictionless(exhibit: &Exhibit) -> Dynamics {
         colliders: &[],
         pairs: Vec::new(),
     };
-    let dynamics = Laws {
+    let dynamics = DynamicsSettings {
         gravity: exhibit.gravity,
         friction: false,
         stabilization_time: exhibit.stabilization_time,

@@ -73,7 +73,7 @@ fn import(json: &Value, bin: &[u8]) -> Result<Imported, String> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("model.glb");
     std::fs::write(&path, glb(json, bin)).expect("written");
-    model::import(&path).map_err(|report| report.render(false))
+    model::import(&path).map_err(|report| report.to_text())
 }
 
 #[test]
@@ -230,7 +230,7 @@ fn strips_and_fans_are_wound_alike_and_hidden_nodes_are_known() {
 }
 
 #[test]
-fn what_is_required_and_not_supported_is_refused_with_what_removes_it() {
+fn a_required_unsupported_extension_is_refused_with_the_remedy() {
     let expected = [
         ("KHR_draco_mesh_compression", "gltf-transform"),
         ("EXT_meshopt_compression", "gltf-transform"),

@@ -224,7 +224,7 @@ impl Wall {
     fn lit(&self, lamp: &Lamp, at: DVec3) -> f64 {
         let away = at - lamp.position.as_dvec3();
         let cosine = away.normalize().dot(lamp.axis.as_dvec3());
-        let (inner, outer) = (f64::from(lamp.cone.0), f64::from(lamp.cone.1));
+        let (inner, outer) = (f64::from(lamp.cos_inner), f64::from(lamp.cos_outer));
         let t = ((cosine - outer) / (inner - outer)).clamp(0.0, 1.0);
         let falls = -away.normalize().dot(self.gallery.z.as_dvec3());
         f64::from(WALL_ALBEDO.y) / std::f64::consts::PI * f64::from(lamp.intensity.y) * t * t * (3.0 - 2.0 * t) * falls

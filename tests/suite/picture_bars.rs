@@ -81,7 +81,7 @@ fn a_bent_wire_has_no_light_seam_and_no_blot_where_its_segments_meet() {
 }
 
 #[test]
-fn a_wire_that_points_at_the_eye_is_whole() {
+fn a_wire_that_points_at_the_camera_is_whole() {
     // Segments that are seen along themselves: neither their joints nor the near end may let light through.
     const LIGHT: f32 = 0.05;
     let size = (96, 96);
@@ -133,7 +133,7 @@ fn the_shadow_of_a_wire_is_unbroken_and_as_dark_as_the_closed_form_says() {
         // Radiance that the key adds to the wall there: albedo/π · I · fade · cos θ / d².
         let away = foot - key.position;
         let (d, cosine) = (away.length(), away.normalize().dot(key.axis));
-        let t = ((cosine - key.cone.1) / (key.cone.0 - key.cone.1)).clamp(0.0, 1.0);
+        let t = ((cosine - key.cos_outer) / (key.cos_inner - key.cos_outer)).clamp(0.0, 1.0);
         let fade = t * t * (3.0 - 2.0 * t);
         let key_radiance = WALL_ALBEDO.y / std::f32::consts::PI * key.intensity.y * fade * (distance / d) / (d * d);
         let pixel = 2.0 * (0.05f32).tan() * 2.0 / 160.0;

@@ -338,7 +338,7 @@ fn a_narrower_picture_shows_all_that_the_camera_shows_in_its_own_aspect() {
         assert!((x - 1.0).abs() < ROUNDING && y > 0.3, "{aspect}: {x} {y}");
     }
     assert_eq!(exhibit.view(2.0).fovy, own.fovy, "a wider picture shows more at the sides");
-    let moving = exhibit.bounds(true);
+    let moving = exhibit.moving_bounds();
     let (_, _, forward) = own.axes();
     assert!((own.target - moving.center()).dot(forward).abs() < ROUNDING, "aimed at the depth of what moves");
 }
@@ -347,7 +347,7 @@ fn a_narrower_picture_shows_all_that_the_camera_shows_in_its_own_aspect() {
 fn a_model_without_a_camera_is_framed_whole_in_any_aspect() {
     let mut exhibit = mobile();
     exhibit.camera_node = None;
-    let bounds = exhibit.bounds(false);
+    let bounds = exhibit.bounds();
     for aspect in [0.4, 1.0, 2.5] {
         let view = exhibit.view(aspect);
         for i in 0..8 {

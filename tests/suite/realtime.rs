@@ -228,11 +228,11 @@ mod callback {
             ([1, 3], 0.25, None),
             ([0, 2], -0.125, None),
         ] {
-            let (mut recorder, mut ears) = input::open(48_000, 2, channels);
+            let (mut recorder, mut capture) = input::open(48_000, 2, channels);
             assert_no_alloc(|| recorder.record(&samples));
             let mut heard = Heard::default();
-            assert_eq!(ears.read(&mut heard), 1000);
-            assert_eq!(ears.capsules(), 1 + usize::from(second.is_some()), "channels {channels:?}");
+            assert_eq!(capture.read(&mut heard), 1000);
+            assert_eq!(capture.capsules(), 1 + usize::from(second.is_some()), "channels {channels:?}");
             assert_eq!(heard.samples, [first; 1000], "channels {channels:?}");
             assert_eq!(heard.second, second.map_or(vec![], |sample| vec![sample; 1000]), "channels {channels:?}");
         }

@@ -35,7 +35,7 @@ fn square(at: f64) -> Picture {
     Picture(rgb)
 }
 
-/// What is seen of a square that is at `at` seconds after the onset, and would be at `alone` had nobody come.
+/// Judges a square that moves as `at` says, in seconds after the onset, and without a visitor as `alone` says.
 fn judged(at: impl Fn(f64) -> f64, alone: impl Fn(f64) -> f64) -> Answer {
     let pictures: Vec<Picture> =
         (0..=2 * BEFORE).map(|k| square(at((k as f64 - BEFORE as f64) / FPS as f64))).collect();
@@ -185,9 +185,9 @@ fn an_ear_alone_hears_a_day_and_a_deaf_one_hears_nobody() {
     const HOURS: f64 = 0.25;
     /// Of the days that are heard in other ways.
     const SHORT: f64 = 0.06;
-    let listened = |hours: f64, ear: &BlowSettings| {
+    let listened = |hours: f64, settings: &BlowSettings| {
         let rehearsal = rehearsal(hours, 3, Crowd::Made);
-        listen(rehearsal, ear).unwrap_or_else(|error| panic!("{error}"))
+        listen(rehearsal, settings).unwrap_or_else(|error| panic!("{error}"))
     };
     let heard = listened(HOURS, &BlowSettings::default());
     let day = Day::new(3, 3600.0 * HOURS, 1, Site::new(&Config::default(), 3).idle_s);
@@ -202,7 +202,7 @@ fn an_ear_alone_hears_a_day_and_a_deaf_one_hears_nobody() {
     let never = Rules { on: f64::INFINITY, ..Rules::default() };
     let deaf = listened(SHORT, &BlowSettings { rules: never, ..BlowSettings::default() });
     assert_eq!((deaf.all.unheard, deaf.heard_after_s, deaf.nobody_s.len()), (short.all.breaths, None, 0));
-    // An ear that is as sure of anything as of a breath has wind without one.
+    // A detector that is as sure of anything as of a breath has wind without one.
     let credulous = Rules { drift: -9.0, on: 0.02, ..Rules::default() };
     let credulous = listened(SHORT, &BlowSettings { rules: credulous, ..BlowSettings::default() });
     assert!(!credulous.nobody_s.is_empty(), "{credulous}");
@@ -247,7 +247,7 @@ fn some_minutes_are_answered_and_the_same_the_second_time() {
 #[test]
 #[ignore = "draws hundreds of pictures, minutes in software"]
 fn a_crowd_with_a_breath_in_it_is_answered_to_nobody_and_misses_the_bar() {
-    // Whoever is in the recording is no visitor: what the kiosk does for them it does for nobody.
+    // People in the recording are no visitors: a response to them counts as one to nobody.
     let shape = BreathShape { lead_in: 3.0, strength: 13.0, lead_out: 25.0, ..BreathShape::default() };
     let samples = generate::breath(16_000, 9, &shape);
     let recording = Recording { samples, capsules: None, sample_rate: 16_000 };

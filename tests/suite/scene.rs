@@ -46,7 +46,7 @@ fn a_scene_is_written_and_read_back() {
 }
 
 #[test]
-fn a_bad_scene_is_told_by_place_and_reason() {
+fn a_bad_scene_is_reported_with_place_and_reason() {
     let good = shipped("pendulum.json");
     for (find, replace, words) in [
         ("\"gravity\":", "\"gravity\"", &["s.json:5:", "expected `:`"][..]),
@@ -118,7 +118,7 @@ const GATE: &str = r#"{
 }"#;
 
 #[test]
-fn a_bad_scene_of_contacts_and_loops_is_told_by_place_and_reason() {
+fn a_bad_scene_of_contacts_and_loops_is_reported_with_place_and_reason() {
     PhysicsScene::parse(GATE, "gate.json").expect("valid");
     for (find, replace, words) in [
         ("\"limits\": [-0.1, 0.2]", "\"limits\": [0.1, 0.2]", &["joints[0].limits:", "enclose the start"][..]),
@@ -239,7 +239,7 @@ fn energy_is_that_of_the_formula() {
 }
 
 #[test]
-fn a_gap_is_the_anchors_distance_and_a_sliders_way_is_none() {
+fn a_gap_is_the_anchors_distance_without_a_sliders_displacement() {
     let axis = DVec3::new(0.0, 0.6, 0.8);
     let (turn, at) = (rotation(DVec3::new(0.4, 0.2, -0.9)), DVec3::new(1.0, 2.0, 3.0));
     let a = BodyState { position: at, rotation: turn, ..BodyState::WORLD };

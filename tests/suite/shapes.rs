@@ -29,7 +29,7 @@ fn plain(scene: &Scene) -> Exhibit {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("model.glb");
     std::fs::write(&path, scene.glb()).expect("writable");
-    Exhibit::from_model(model::load(&path).unwrap_or_else(|report| panic!("{}", report.render(false))))
+    Exhibit::from_model(model::load(&path).unwrap_or_else(|report| panic!("{}", report.to_text())))
 }
 
 fn weights(track: &ShapeTrack, t: f64) -> [f64; 2] {
@@ -91,18 +91,18 @@ fn a_node_grows_with_what_is_above_it_and_a_body_follows_its_place_alone() {
     let body = "[[body]]\nnode = \"Leaf\"\nmotion = \"kinematic\"\nanimation = { name = \"NAME\", loop = false }\n";
     let load = |name: &str| exhibit::load(Folder::exhibit(&scene.glb(), &body.replace("NAME", name)).path());
     // It stretches unevenly, which no body can, and turns all the same.
-    let turned = load("Turn").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let turned = load("Turn").unwrap_or_else(|report| panic!("{}", report.to_text()));
     assert_eq!((turned.drives.len(), turned.shapes.len()), (1, 2));
     assert!(turned.shapes.iter().all(|track| track.repeat), "these are not of the animation that the body follows");
     // Shapes do not move a body.
     for name in ["Wave", "Stretch"] {
-        let output = load(name).expect_err("nothing to follow").render(false);
+        let output = load(name).expect_err("nothing to follow").to_text();
         assert!(output.contains(&format!("no animation \"{name}\" of the model moves \"Leaf\"")), "{output}");
     }
 }
 
 #[test]
-fn what_is_below_a_body_goes_on_with_the_animation_that_the_body_follows() {
+fn nodes_below_a_body_play_the_animation_that_the_body_follows() {
     let (mut scene, leaf) = leaf();
     let turn = |angle: f32| vec![0.0, 0.0, (0.5 * angle).sin(), (0.5 * angle).cos()];
     scene.animate("Idle", leaf, "weights", "STEP", &[(0.0, vec![0.5; 2]), (7.0, vec![0.5; 2])]);
@@ -111,7 +111,7 @@ fn what_is_below_a_body_goes_on_with_the_animation_that_the_body_follows() {
     scene.merge("Bow");
     let text = "[[body]]\nnode = \"Leaf\"\nmotion = \"kinematic\"\nanimation = { name = \"Bow\", loop = false }\n";
     let exhibit = exhibit::load(Folder::exhibit(&scene.glb(), text).path())
-        .unwrap_or_else(|report| panic!("{}", report.render(false)));
+        .unwrap_or_else(|report| panic!("{}", report.to_text()));
     let [track] = exhibit.shapes.as_slice() else { panic!("one track: {:?}", exhibit.shapes) };
     assert_eq!((track.repeat, track.span), (false, (0.0, 1.0)));
     assert_eq!((weights(track, 0.25), weights(track, 5.0)), ([0.25; 2], [1.0; 2]));
@@ -119,10 +119,10 @@ fn what_is_below_a_body_goes_on_with_the_animation_that_the_body_follows() {
 }
 
 #[test]
-fn broken_key_frames_of_shapes_are_told_where_they_are() {
+fn broken_key_frames_of_shapes_are_reported_with_their_place() {
     let output = |scene: &Scene| {
         let report = exhibit::load(Folder::exhibit(&scene.glb(), "").path()).expect_err("broken");
-        report.render(false)
+        report.to_text()
     };
     let refused = |keys: &[(f32, Vec<f32>)], curve: &str, words: &[&str]| {
         let (mut scene, leaf) = leaf();
@@ -158,7 +158,7 @@ fn an_export_names_the_shapes_that_it_leaves_at_rest() {
         run.status.success() && output.contains("left out: key frames of scales and morph weights (1)"),
         "{output}"
     );
-    let written = model::load(&folder.file("out.glb")).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let written = model::load(&folder.file("out.glb")).unwrap_or_else(|report| panic!("{}", report.to_text()));
     assert!(written.animations.is_empty() && written.meshes.len() == 1);
 }
 
@@ -266,7 +266,7 @@ mod drawn {
             let text =
                 format!("[[body]]\nnode = \"Leaf\"\nmotion = \"kinematic\"\nanimation = {{ loop = {repeats} }}\n");
             let exhibit = exhibit::load(Folder::exhibit(&scene.glb(), &text).path())
-                .unwrap_or_else(|report| panic!("{}", report.render(false)));
+                .unwrap_or_else(|report| panic!("{}", report.to_text()));
             let exhibit = std::sync::Arc::new(exhibit);
             let view = exhibit.view(1.0);
             let (mut simulation, mut stillness) =

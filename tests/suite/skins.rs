@@ -184,7 +184,7 @@ fn a_skin_follows_the_bodies_that_carry_its_joints_as_the_formula_says() {
 }
 
 #[test]
-fn at_rest_it_is_what_physics_and_hands_take_it_for() {
+fn at_rest_it_has_the_shape_that_physics_and_grabs_use() {
     /// Single precision of a metre.
     const ROUNDING: f64 = 1e-6;
     let folder = tempfile::tempdir().expect("a folder");

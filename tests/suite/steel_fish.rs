@@ -283,7 +283,7 @@ fn a_hit_sounds_on_its_own_sample() {
 }
 
 #[test]
-fn a_pushed_figure_keeps_to_its_joints() {
+fn a_pushed_mechanism_keeps_its_joints_closed() {
     let mut simulation = Simulation::new(steel_fish(), Settings::default());
     let turn = rotation(DVec3::Y * 0.3);
     let pivot = simulation.bodies()[BOOM].pose().position;

@@ -138,7 +138,7 @@ const SYSTEMS: &[System] = &[
 
 fn load(id: &str) -> Exhibit {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false)))
+    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text()))
 }
 
 #[test]

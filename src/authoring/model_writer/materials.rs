@@ -31,12 +31,16 @@ impl Writer {
             surface["metallicRoughnessTexture"] = info;
         }
         let mut out = json!({ "pbrMetallicRoughness": surface });
-        if let Some((mut info, scale)) = look.normal_texture.and_then(|(at, scale)| Some((texture(Some(at))?, scale))) {
+        if let Some((mut info, scale)) =
+            look.normal_texture.and_then(|map| Some((texture(Some(map.texture))?, map.scale)))
+        {
             info["scale"] = json!(scale);
             out["normalTexture"] = info;
         }
-        if let Some((mut info, s)) = look.occlusion_texture.and_then(|(at, s)| Some((texture(Some(at))?, s))) {
-            info["strength"] = json!(s);
+        if let Some((mut info, strength)) =
+            look.occlusion_texture.and_then(|map| Some((texture(Some(map.texture))?, map.scale)))
+        {
+            info["strength"] = json!(strength);
             out["occlusionTexture"] = info;
         }
         if let Some(info) = texture(look.emissive_texture) {
@@ -153,7 +157,7 @@ fn details(look: &Appearance, extension: &str) -> Vec<(&'static str, TextureUse,
         _ => Vec::new(),
     };
     let normal = of.coat_normal.filter(|_| extension == "KHR_materials_clearcoat");
-    let normal = normal.map(|(at, scale)| ("clearcoatNormalTexture", at, Some(scale)));
+    let normal = normal.map(|map| ("clearcoatNormalTexture", map.texture, Some(map.scale)));
     named.into_iter().filter_map(|(key, at)| Some((key, at?, None))).chain(normal).collect()
 }
 

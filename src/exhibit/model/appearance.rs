@@ -18,9 +18,9 @@ pub struct Appearance {
     /// Roughness in the green channel, metalness in the blue one.
     pub metallic_roughness_texture: Option<TextureUse>,
     /// Normal map with its scale.
-    pub normal_texture: Option<(TextureUse, f32)>,
+    pub normal_texture: Option<ScaledTexture>,
     /// Occlusion map with its strength.
-    pub occlusion_texture: Option<(TextureUse, f32)>,
+    pub occlusion_texture: Option<ScaledTexture>,
     /// Emitted colour, linear RGB, strength included.
     pub emissive: [f32; 3],
     /// Multiplies the emitted colour.
@@ -73,11 +73,20 @@ pub struct Details {
     /// Green channel.
     pub coat_roughness: Option<TextureUse>,
     /// Normal map of the coat alone, with its scale.
-    pub coat_normal: Option<(TextureUse, f32)>,
+    pub coat_normal: Option<ScaledTexture>,
     /// Colour.
     pub sheen: Option<TextureUse>,
     /// Alpha channel.
     pub sheen_roughness: Option<TextureUse>,
+}
+
+/// A texture whose effect has a strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScaledTexture {
+    /// The texture.
+    pub texture: TextureUse,
+    /// Scale of a normal map, strength of an occlusion map; 1 is the image as it is.
+    pub scale: f32,
 }
 
 impl Details {
@@ -90,7 +99,7 @@ impl Details {
             self.specular_color,
             self.coat,
             self.coat_roughness,
-            self.coat_normal.map(|(texture, _)| texture),
+            self.coat_normal.map(|map| map.texture),
             self.sheen,
             self.sheen_roughness,
         ]

@@ -6,7 +6,7 @@ use gltf::json::Value;
 use gltf::material::AlphaMode as GltfAlpha;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
-use super::appearance::{AlphaMode, Appearance, Details, Levels, Sampler, TextureUse, Wrap};
+use super::appearance::{AlphaMode, Appearance, Details, Levels, Sampler, ScaledTexture, TextureUse, Wrap};
 use soffio_math as math;
 
 /// Material extensions that are not drawn.
@@ -28,10 +28,12 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: im
     let emissive_texture = material.emissive_texture().map(|i| textures.info(&i));
     let normal_texture = material
         .normal_texture()
-        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.scale()));
+        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.scale()))
+        .map(|(texture, scale)| ScaledTexture { texture, scale });
     let occlusion_texture = material
         .occlusion_texture()
-        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.strength()));
+        .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.strength()))
+        .map(|(texture, scale)| ScaledTexture { texture, scale });
     let details = textures.details();
     for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
         (textures.note)(format!("material \"{name}\": {extension} is not drawn"));
@@ -106,19 +108,19 @@ impl<N: FnMut(String)> Textures<'_, N> {
     }
 
     /// A texture of an extension, with its scale; `None` where the file has no such texture.
-    fn detail(&mut self, extension: &str, key: &str) -> Option<(TextureUse, f32)> {
+    fn detail(&mut self, extension: &str, key: &str) -> Option<ScaledTexture> {
         let info = self.material.extension_value(&format!("KHR_materials_{extension}")).and_then(|e| e.get(key))?;
         let index = info.get("index")?.as_u64()? as usize;
         let set = info.get("texCoord").and_then(Value::as_u64).unwrap_or(0) as u32;
         let moved = info.get("extensions").and_then(|e| e.get(TEXTURE_TRANSFORM));
         let scale = info.get("scale").and_then(Value::as_f64).unwrap_or(1.0) as f32;
-        Some((self.texture(self.document.textures().nth(index)?, set, moved), scale))
+        Some(ScaledTexture { texture: self.texture(self.document.textures().nth(index)?, set, moved), scale })
     }
 
     /// The textures of all extensions.
     fn details(&mut self) -> Details {
         let coat_normal = self.detail("clearcoat", "clearcoatNormalTexture");
-        let mut detail = |extension: &str, key: &str| self.detail(extension, key).map(|(texture, _)| texture);
+        let mut detail = |extension: &str, key: &str| self.detail(extension, key).map(|map| map.texture);
         let details = Details {
             transmission: detail("transmission", "transmissionTexture"),
             thickness: detail("volume", "thicknessTexture"),

@@ -33,7 +33,7 @@ impl Context<'_> {
             for primitive in of.mesh.map_or(&[][..], |mesh| &model.meshes[mesh].primitives) {
                 let Some(look) = primitive.material.map(|m| &model.materials[m]) else { continue };
                 let (image, read): (usize, fn([u8; 4]) -> f32) = match (look.normal_texture, look.base_color_texture) {
-                    (Some((texture, _)), _) => (texture.image, slope),
+                    (Some(map), _) => (map.texture.image, slope),
                     (None, Some(texture)) => (texture.image, lightness),
                     (None, None) => continue,
                 };

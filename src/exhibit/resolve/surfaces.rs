@@ -2,7 +2,7 @@
 
 use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::sidecar::{self, Faces, Trigger};
-use super::super::{Body, SoundBinding, SoundTrigger, Wire, codes, fit};
+use super::super::{Body, ImpactFrame, SoundBinding, SoundTrigger, Wire, codes, fit};
 use super::context::Context;
 use soffio_geometry::{Extents, TriangleMesh};
 use soffio_math::from_decibels;
@@ -188,7 +188,7 @@ impl Context<'_> {
             gain: from_decibels(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };
-        let frame = (extents.axes.x_axis, extents.axes.y_axis, extents.center);
+        let frame = ImpactFrame { longest: extents.axes.x_axis, middle: extents.axes.y_axis, center: extents.center };
         Some((
             spec,
             SoundBinding {

@@ -26,9 +26,9 @@ pub(super) fn rotation_keys(rotation_keys: &[DQuat], reach: f64) -> Vec<usize> {
     keep(rotation_keys.len(), |from, to, i| {
         let share = (i - from) as f64 / (to - from) as f64;
         let (p, q) = (rotation_keys[from], rotation_keys[to]);
-        let way = rotation_vector(near(q * p.conjugate(), DQuat::IDENTITY));
+        let difference = rotation_vector(near(q * p.conjugate(), DQuat::IDENTITY));
         let straight = (p * (1.0 - share) + near(q, p) * share).normalize();
-        [rotation(share * way) * p, straight].into_iter().all(|between| angle(between, rotation_keys[i]) <= most)
+        [rotation(share * difference) * p, straight].into_iter().all(|between| angle(between, rotation_keys[i]) <= most)
     })
 }
 
@@ -75,9 +75,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_out_is_found_again_within_the_error() {
-        let way = |i: usize| DVec3::new(0.1 * soffio_math::sin(0.005 * i as f64), 0.0, 0.0);
-        let all: Vec<DVec3> = (0..500).map(way).collect();
+    fn omitted_keys_are_interpolated_within_the_error() {
+        let positions_at = |i: usize| DVec3::new(0.1 * soffio_math::sin(0.005 * i as f64), 0.0, 0.0);
+        let all: Vec<DVec3> = (0..500).map(positions_at).collect();
         let kept = position_keys(&all);
         // The curvature is at most a = 2.5 µm a frame², so n frames can lie between two keys with a n²/8 = 5 µm: four.
         assert!(kept.len() < 250, "{}", kept.len());

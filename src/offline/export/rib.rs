@@ -199,7 +199,7 @@ fn gallery(gallery: &Gallery, view: &View) -> String {
     let mut out = format!("  LightSource \"ambientlight\" 1 \"intensity\" [{ambient}]\n");
     let vector = |v: glam::Vec3| list(v.as_dvec3().to_array());
     for (handle, lamp) in (2..).zip(&gallery.lamps) {
-        let [inner, outer] = [lamp.cone.0, lamp.cone.1].map(|cosine| acos(f64::from(cosine)));
+        let [inner, outer] = [lamp.cos_inner, lamp.cos_outer].map(|cosine| acos(f64::from(cosine)));
         // The standard surfaces reflect Kd Cs Cl cos θ, without the π of Lambert's law.
         let intensity = f64::from(lamp.intensity.y) / PI;
         let _ = writeln!(
@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    fn what_the_eye_sees_in_the_middle_lies_on_the_cameras_axis() {
+    fn the_centre_of_the_picture_lies_on_the_cameras_axis() {
         let view = View { eye: DVec3::new(1.0, 2.0, 3.0), target: DVec3::new(0.0, 2.0, -1.0), up: DVec3::Y, fovy: 0.5 };
         let text = camera(&view);
         let m: Vec<f64> = text.trim_matches(['[', ']']).split(' ').map(|x| x.parse().expect("a number")).collect();

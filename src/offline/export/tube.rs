@@ -22,10 +22,10 @@ pub(super) fn tube(points: &[DVec3], radius: f64) -> Primitive {
     if line.len() < 2 {
         return out;
     }
-    let ways: Vec<DVec3> = line.windows(2).map(|pair| (pair[1] - pair[0]).normalize()).collect();
-    let mut side = tangents(ways[0]).0;
+    let directions: Vec<DVec3> = line.windows(2).map(|pair| (pair[1] - pair[0]).normalize()).collect();
+    let mut side = tangents(directions[0]).0;
     for (i, &point) in line.iter().enumerate() {
-        let (before, after) = (ways[i.saturating_sub(1)], ways[i.min(ways.len() - 1)]);
+        let (before, after) = (directions[i.saturating_sub(1)], directions[i.min(directions.len() - 1)]);
         // The ring lies in the bisecting plane of the bend; a wire that reverses has none.
         let normal = (before + after).try_normalize().unwrap_or(after);
         side = side.reject_from_normalized(before).try_normalize().unwrap_or_else(|| tangents(before).0);
@@ -47,8 +47,8 @@ pub(super) fn tube(points: &[DVec3], radius: f64) -> Primitive {
         }
     }
     let last = SIDES * (line.len() as u32 - 1);
-    cap(&mut out, 0, -ways[0]);
-    cap(&mut out, last, ways[ways.len() - 1]);
+    cap(&mut out, 0, -directions[0]);
+    cap(&mut out, last, directions[directions.len() - 1]);
     out
 }
 

@@ -93,6 +93,7 @@ impl ContactObserver {
         }
     }
 
+    /// The measurements so far.
     pub fn report(&self) -> ContactReport {
         self.report
     }

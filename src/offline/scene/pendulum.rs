@@ -19,6 +19,7 @@ const HALVINGS: usize = 60;
 /// Zero crossings of a pendulum on a hinge to the world.
 #[derive(Clone, Debug)]
 pub(super) struct Pendulum {
+    /// Index of the swinging body.
     pub body: usize,
     axis: DVec3,
     hinge: DVec3,

@@ -82,7 +82,7 @@ pub enum SceneShape {
 impl SceneShape {
     /// The shape as a collision shape at a pose.
     pub fn shape(&self, place: Pose) -> Shape {
-        let ends = |axis: ShapeAxis, half: f64| [-half, half].map(|way| place.point(way * axis.direction()));
+        let ends = |axis: ShapeAxis, half: f64| [-half, half].map(|end| place.point(end * axis.direction()));
         match *self {
             Self::Box { half, rounding } => Shape::cuboid(place, DVec3::from_array(half), rounding),
             Self::Sphere { radius } => Shape::sphere(place.position, radius),

@@ -56,10 +56,12 @@ impl Frames {
 
 /// Audible T60 of half octaves: (Hz, s) of each band whose decay is long enough to measure.
 pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
-    /// Decay over which the slope is fitted, dB below the band's maximum.
-    const FALL: (f64, f64) = (-3.0, -23.0);
+    /// Level at which the fit of the slope begins, dB relative to the band's maximum.
+    const FIT_START: f64 = -3.0;
+    /// Level at which it ends, dB relative to the band's maximum.
+    const FIT_END: f64 = -23.0;
     /// Bands this far below the loudest are inaudible.
-    const FAINT: f64 = 1e-6;
+    const INAUDIBLE_RATIO: f64 = 1e-6;
     let mut out = Vec::new();
     let bands: Vec<(f64, Vec<f64>)> = (0..19)
         .map(|i| {
@@ -73,11 +75,11 @@ pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
     for (centre, levels) in bands {
         let top = top_of(&levels);
         let start = levels.iter().position(|p| *p == top).unwrap_or(0);
-        if top <= FAINT * loudest {
+        if top <= INAUDIBLE_RATIO * loudest {
             continue;
         }
         let fallen = |db: f64| levels[start..].iter().position(|p| 10.0 * log10(p / top) < db).map(|i| start + i);
-        let (Some(from), Some(to)) = (fallen(FALL.0), fallen(FALL.1)) else { continue };
+        let (Some(from), Some(to)) = (fallen(FIT_START), fallen(FIT_END)) else { continue };
         if to < from + 3 {
             continue;
         }

@@ -37,6 +37,7 @@ pub(super) struct FfmpegEncoder {
 }
 
 impl FfmpegEncoder {
+    /// Starts ffmpeg; `size` is the width and height of all pictures, in pixels.
     pub fn create(path: &Path, size: (u32, u32), fps: u32) -> Result<Self, String> {
         let place = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = tempfile::Builder::new()
@@ -61,6 +62,7 @@ impl FfmpegEncoder {
         self.folder.path().join("sound.wav")
     }
 
+    /// Encodes the next picture.
     pub fn push(&mut self, picture: &RgbaImage) -> Result<(), String> {
         let written = self.child.stdin.as_mut().map(|pipe| pipe.write_all(picture.as_raw()));
         match written {
@@ -69,6 +71,7 @@ impl FfmpegEncoder {
         }
     }
 
+    /// Completes the film, with the sound of a WAV file if one is given.
     pub fn finish(mut self, sound: Option<&Path>) -> Result<(), String> {
         // The end of the pipe ends the video.
         drop(self.child.stdin.take());

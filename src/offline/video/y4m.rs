@@ -16,6 +16,7 @@ pub(super) struct Y4m {
 }
 
 impl Y4m {
+    /// Begins a film of pictures of this width and height, in pixels.
     pub fn create(path: &Path, (width, height): (u32, u32), fps: u32) -> io::Result<Self> {
         let mut file = AtomicFile::create(path)?;
         writeln!(file, "YUV4MPEG2 W{width} H{height} F{fps}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED")?;
@@ -24,6 +25,7 @@ impl Y4m {
         Ok(Self { file, shares, planes: Default::default() })
     }
 
+    /// Writes the next picture.
     pub fn push(&mut self, picture: &RgbaImage) -> io::Result<()> {
         self.planes.iter_mut().for_each(Vec::clear);
         for pixel in picture.pixels() {
@@ -35,6 +37,7 @@ impl Y4m {
         self.planes.iter().try_for_each(|plane| self.file.write_all(plane))
     }
 
+    /// Completes the file.
     pub fn finish(self) -> io::Result<()> {
         self.file.finish()
     }

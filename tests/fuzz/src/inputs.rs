@@ -40,7 +40,7 @@ pub fn sidecar(folder: &Path, bytes: &[u8]) {
     put(&folder.join(exhibit::SIDECAR), bytes);
     match exhibit::load(folder) {
         Ok(exhibit) => begin(exhibit),
-        Err(report) => drop(report.render(false)),
+        Err(report) => drop(report.to_text()),
     }
 }
 
@@ -50,7 +50,7 @@ pub fn model(folder: &Path, bytes: &[u8]) {
     put(&path, bytes);
     match exhibit::load_model(&path) {
         Ok(exhibit) => begin(exhibit),
-        Err(report) => drop(report.render(false)),
+        Err(report) => drop(report.to_text()),
     }
 }
 

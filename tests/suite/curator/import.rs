@@ -36,7 +36,7 @@ fn made(model: &[u8]) -> (tempfile::TempDir, ExhibitFolder) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("model.glb");
     std::fs::write(&path, model).expect("writable");
-    let made = imported::folder(&path, "taken").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let made = imported::folder(&path, "taken").unwrap_or_else(|report| panic!("{}", report.to_text()));
     for FolderFile { name, bytes } in &made.files {
         std::fs::write(folder.path().join(name), bytes).expect("writable");
     }
@@ -51,7 +51,7 @@ fn sidecar(made: &ExhibitFolder) -> String {
 fn loaded(model: &[u8]) -> (ExhibitFolder, Exhibit) {
     let (folder, made) = made(model);
     let exhibit =
-        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}\n{}", report.render(false), sidecar(&made)));
+        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}\n{}", report.to_text(), sidecar(&made)));
     (made, exhibit)
 }
 
@@ -105,7 +105,7 @@ fn a_pendulum_by_the_models_joint_moves_as_our_own() {
              limit = {{ min = {min}, max = {max} }}\n"
         );
         let folder = Folder::exhibit(&pendulum(swapped), &own);
-        let ours = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let ours = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
         let (theirs, ours) = (run(exhibit, 6), run(ours, 6));
         let apart = theirs.iter().zip(&ours).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         let swung = theirs.iter().map(|p| p.distance(theirs[0])).fold(0.0, f64::max);
@@ -155,7 +155,7 @@ fn locked_axes_name_the_joint() {
         assert!(text.contains(&format!("[[constraint.{kind}]]")), "{kind}:\n{text}");
         let held: usize = exhibit.constraints.iter().map(|c| rows_of(&c.kind)).sum();
         assert_eq!(held, rows, "{kind}");
-        assert!(exhibit.warnings.is_empty(), "{kind}: {}", exhibit.warning_report().render(false));
+        assert!(exhibit.warnings.is_empty(), "{kind}: {}", exhibit.warning_report().to_text());
     }
 }
 
@@ -224,7 +224,7 @@ fn materials_combine_as_the_model_says_and_filters_keep_apart() {
 }
 
 #[test]
-fn what_cannot_be_said_here_is_told_node_by_node() {
+fn unsupported_content_is_reported_node_by_node() {
     let mut scene = Scene::default();
     let fixed = scene.node("Fixed", [0.0, 2.0, 0.0], None, &[]);
     let mut body = |name: &str, at: f32, own: Value| {
@@ -314,14 +314,14 @@ fn files_beside_a_model_come_along() {
     std::fs::write(folder.path().join("data/my buffer.bin"), &glb[28 + length..]).expect("writable");
     let path = folder.path().join("thing.gltf");
     std::fs::write(&path, json.to_string()).expect("writable");
-    let made = imported::folder(&path, "thing").unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let made = imported::folder(&path, "thing").unwrap_or_else(|report| panic!("{}", report.to_text()));
     let names: Vec<&str> = made.files.iter().map(|file| file.name.as_str()).collect();
     assert_eq!(names, ["data/my buffer.bin", "thing.gltf", "exhibit.toml"]);
     // Nothing outside the model's folder is read.
     json["buffers"][0]["uri"] = json!("../secret.bin");
     std::fs::write(&path, json.to_string()).expect("writable");
     let report = imported::folder(&path, "thing").expect_err("outside");
-    assert!(report.has(codes::OUTSIDE), "{}", report.render(false));
+    assert!(report.has(codes::OUTSIDE), "{}", report.to_text());
 }
 
 #[test]

@@ -34,7 +34,7 @@ text = { invite = "انفخ برفق" }
 "#;
 
 fn taken(table: &str) -> MergedTexts {
-    from_csv("exhibit.toml", SIDECAR, "words.csv", table).unwrap_or_else(|report| panic!("{}", report.render(false)))
+    from_csv("exhibit.toml", SIDECAR, "words.csv", table).unwrap_or_else(|report| panic!("{}", report.to_text()))
 }
 
 fn refused(table: &str) -> Report {
@@ -42,7 +42,7 @@ fn refused(table: &str) -> Report {
 }
 
 fn table() -> String {
-    to_csv("exhibit.toml", SIDECAR).unwrap_or_else(|report| panic!("{}", report.render(false)))
+    to_csv("exhibit.toml", SIDECAR).unwrap_or_else(|report| panic!("{}", report.to_text()))
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn changes_reach_their_places_and_comments_stay() {
 }
 
 #[test]
-fn what_cannot_be_taken_is_refused_all_at_once_with_its_line() {
+fn unusable_rows_are_all_refused_at_once_with_their_lines() {
     let table = "key,en,deutsch,en\ntitle,a,b,c\ncaption.rng,a,b,c\ntitle,d,e,f\nalt,a\n\nmaker,\"a\nb\",c\n";
     let report = refused(table);
     let found: Vec<(usize, &str)> =
@@ -117,11 +117,11 @@ fn what_cannot_be_taken_is_refused_all_at_once_with_its_line() {
     }
     assert_eq!(found.len(), 6, "{found:?}");
     assert!(report.diagnostics.iter().all(|d| d.help.as_ref().is_some_and(|help| !help.is_empty())));
-    assert!(report.render(false).contains("\"caption.ring\""), "a near key");
+    assert!(report.to_text().contains("\"caption.ring\""), "a near key");
     for table in ["", "title,en\n", "\u{feff}", "key\0,en"] {
         assert!(!refused(table).diagnostics.is_empty(), "{table:?}");
     }
     let bare = "schema = \"exhibit/1\"\nmodel = \"m.glb\"\n";
-    assert!(to_csv("exhibit.toml", bare).expect_err("no label").render(false).contains("no label"));
-    assert!(to_csv("exhibit.toml", "not toml").expect_err("broken").render(false).contains("exhibit.toml:1"));
+    assert!(to_csv("exhibit.toml", bare).expect_err("no label").to_text().contains("no label"));
+    assert!(to_csv("exhibit.toml", "not toml").expect_err("broken").to_text().contains("exhibit.toml:1"));
 }

@@ -219,7 +219,7 @@ fn two_hundred_spoiled_sidecars_are_told_where_and_none_ends_the_program() {
                 Ok(_) => good += 1,
                 Err(report) => {
                     bad += 1;
-                    assert!(report.has_errors() && !report.render(false).is_empty());
+                    assert!(report.has_errors() && !report.to_text().is_empty());
                     for problem in &report.diagnostics {
                         let placed = problem.location.as_ref().is_some_and(|l| {
                             (1..=lines + 1).contains(&l.line) && l.column >= 1 && l.file.ends_with("exhibit.toml")

@@ -29,8 +29,8 @@ fn loaded(made: &ExhibitFolder) -> Arc<Exhibit> {
     for FolderFile { name, bytes } in &made.files {
         std::fs::write(folder.path().join(name), bytes).expect("a writable folder");
     }
-    let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
-    assert!(exhibit.warnings.is_empty(), "{}", exhibit.warning_report().render(false));
+    let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
+    assert!(exhibit.warnings.is_empty(), "{}", exhibit.warning_report().to_text());
     Arc::new(exhibit)
 }
 
@@ -87,7 +87,7 @@ fn blown(name: &str, exhibit: &Arc<Exhibit>, aims: &[[f64; 2]]) -> usize {
 
 /// A mobile of these plates, tried; and its figures.
 fn tried(name: &str, plates: &[Outline], thickness: f64, metal: Metal) {
-    let output = |problems: Vec<_>| format!("{name}: {}", Report::from(problems).render(false));
+    let output = |problems: Vec<_>| format!("{name}: {}", Report::from(problems).to_text());
     let work =
         plate_mobile::mobile(name, plates, thickness, metal).unwrap_or_else(|problems| panic!("{}", output(problems)));
     // The rule that the branches are bent by: what the wires balance, they balance to rounding.
@@ -153,7 +153,7 @@ const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="200mm" h
 fn a_drawing_becomes_plates_of_its_own_size() {
     /// Half the flatness of a curve on either side, mm.
     const FLAT: f64 = 0.1;
-    let plates = outlines("three.svg", DRAWING).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let plates = outlines("three.svg", DRAWING).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let names: Vec<&str> = plates.iter().map(|plate| plate.name.as_str()).collect();
     assert_eq!(names, ["<path id=\"leaf\">", "<path id=\"fish\">", "<rect id=\"card\">", "<circle>"]);
     let size = |i: usize| {
@@ -171,7 +171,7 @@ fn a_drawing_becomes_plates_of_its_own_size() {
 }
 
 #[test]
-fn what_is_no_plate_is_refused_where_it_stands() {
+fn an_outline_that_is_no_plate_is_refused_with_its_position() {
     let cases = [
         ("<path id=\"ring\" d=\"M0 0H90V90H0Z M20 20H40V40H20Z\"/>", "holes", "id=\"ring\""),
         ("<path id=\"open\" d=\"M0 0 L90 0 L90 90\"/>", "open line", "close it"),
@@ -189,7 +189,7 @@ fn what_is_no_plate_is_refused_where_it_stands() {
     for (element, why, other) in cases {
         let text = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{element}\n</svg>");
         let report = outlines("plates.svg", &text).expect_err(element);
-        let output = report.render(false);
+        let output = report.to_text();
         for word in [why, other] {
             assert!(output.contains(word), "{element}: no \"{word}\" in\n{output}");
         }
@@ -200,7 +200,7 @@ fn what_is_no_plate_is_refused_where_it_stands() {
     let both = "<svg xmlns=\"http://www.w3.org/2000/svg\"><text>a</text><line/></svg>";
     assert_eq!(outlines("plates.svg", both).expect_err("two problems").diagnostics.len(), 2);
     for text in ["", "not SVG", "<svg", "<html/>", "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M0 0"] {
-        let output = outlines("plates.svg", text).expect_err(text).render(false);
+        let output = outlines("plates.svg", text).expect_err(text).to_text();
         assert!(output.contains("E0601"), "{text}: {output}");
     }
 }
@@ -216,7 +216,7 @@ fn plates_that_cannot_hang_are_refused_with_the_reason() {
     ];
     for (list, thickness, word) in cases {
         let problems = starter::mobile("x", &sizes(list), 1e-3 * thickness, Metal::Steel).expect_err(list);
-        let output = Report::from(problems).render(false);
+        let output = Report::from(problems).to_text();
         assert!(output.contains(word), "{list}: no \"{word}\" in\n{output}");
     }
     for text in ["", "x", "12x", "0", "-5", "1x2x3", "nan", "inf", "12 by 3"] {
@@ -225,7 +225,7 @@ fn plates_that_cannot_hang_are_refused_with_the_reason() {
     // A crescent whose centre lies outside it has nothing above to hang by but its horn.
     let horn = "<svg xmlns=\"http://www.w3.org/2000/svg\"><path id=\"horn\" d=\"M0 0 L60 1 L120 0 L60 3 Z\"/>\
                 <rect width=\"80\" height=\"60\"/></svg>";
-    let plates = outlines("horn.svg", horn).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let plates = outlines("horn.svg", horn).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let problems = starter::mobile("x", &plates, 1e-3, Metal::Steel).expect_err("too thin");
     assert!(problems[0].message.contains("horn"), "{}", problems[0].message);
 }

@@ -7,7 +7,7 @@ use soffio_multibody::collision::Pair;
 
 fn shipped(id: &str) -> Exhibit {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false)))
+    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text()))
 }
 
 fn body(exhibit: &Exhibit, name: &str) -> usize {

@@ -37,7 +37,7 @@ fn try_load(text: &str) -> Result<Exhibit, Report> {
 }
 
 fn load(text: &str) -> Exhibit {
-    try_load(text).unwrap_or_else(|report| panic!("{text}\n{}", report.render(false)))
+    try_load(text).unwrap_or_else(|report| panic!("{text}\n{}", report.to_text()))
 }
 
 /// A turn by `turn` (rotation vector, world) about a world point, then a way.
@@ -241,7 +241,7 @@ fn a_gear_with_backlash_is_free_between_the_flanks_of_its_teeth() {
         [(teeth, "\"2 deg\"", [7.0, 1.0], PI / 90.0), (radii, "\"0.5 mm\"", [0.07, 0.01], 5e-4)]
     {
         let loose = gear(size, &format!("backlash = {backlash}"));
-        let exhibit = loose.unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let exhibit = loose.unwrap_or_else(|report| panic!("{}", report.to_text()));
         assert!(exhibit.constraints.is_empty());
         let LimitKind::Play { terms, play } = exhibit.limits[0].kind else { panic!("{:?}", exhibit.limits) };
         assert!((play - wanted).abs() < SINGLE * wanted, "{play}");
@@ -259,7 +259,7 @@ fn a_gear_with_backlash_is_free_between_the_flanks_of_its_teeth() {
 }
 
 #[test]
-fn what_is_not_enabled_does_not_act_and_can_still_be_pointed_at() {
+fn inactive_elements_do_not_act_and_can_still_be_referred_to() {
     let text = |enabled: &str| {
         format!(
             "[[constraint.hinge]]\nname = \"axle\"\nbody = \"Wheel\"\naxis = [0, 0, 1]\nlimit = {{ max = 1 }}\n{enabled}\n\
@@ -277,7 +277,7 @@ fn what_is_not_enabled_does_not_act_and_can_still_be_pointed_at() {
 }
 
 #[test]
-fn a_constraint_may_gather_at_its_own_pace() {
+fn a_constraint_may_assemble_at_its_own_pace() {
     let own = load(
         "[[constraint.nail]]\nname = \"slow\"\nbody = \"Arm\"\nto = [0.1, 1, -0.2]\n\
          stabilize = { time_constant = \"300 ms\" }\n\
@@ -344,7 +344,7 @@ fn an_element_frees_or_holds_one_freedom() {
 }
 
 #[test]
-fn limits_bound_turns_ways_tilts_and_distances() {
+fn limits_bound_rotations_displacements_tilts_and_distances() {
     let text = "[[constraint.hinge]]\nname = \"arbor\"\nbody = \"Wheel\"\naxis = [0, 0, 1]\n\
                 limit = { min = \"-6 deg\", max = \"6 deg\", restitution = 0.1 }\n\
                 [[constraint.slider]]\nname = \"rod\"\nbody = \"Weight\"\naxis = [0, 1, 0]\n\

@@ -35,7 +35,7 @@ fn load() -> Exhibit {
     let folder = Folder::exhibit(&scene.glb(), "");
     folder.write("clock-and-chime.glb", &scene.glb());
     folder.write("exhibit.toml", SIDECAR.as_bytes());
-    exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)))
+    exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()))
 }
 
 #[test]
@@ -106,7 +106,7 @@ fn an_exhibit_of_some_length_starts_again_at_its_end() {
     scene.node("Box", [0.0; 3], Some(&cuboid([0.1; 3])), &[]);
     let text = "[scene]\nduration = \"500 ms\"\n[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n";
     let folder = Folder::exhibit(&scene.glb(), text);
-    let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let mut simulation = Simulation::new(Arc::new(exhibit), soffio_simulation::Settings::default());
     let height = |simulation: &Simulation| simulation.bodies()[0].position.y;
     for _ in 0..120 {

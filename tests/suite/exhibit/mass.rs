@@ -66,7 +66,7 @@ fn a_wire_turns_as_the_cylinder_it_is() {
 }
 
 #[test]
-fn nothing_weighs_nothing() {
+fn no_matter_has_no_mass() {
     let nothing = Moments::default();
     assert_eq!((nothing.mass, nothing.inertia()), (0.0, DMat3::ZERO));
 }

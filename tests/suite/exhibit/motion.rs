@@ -23,8 +23,7 @@ fn scene() -> (Scene, usize) {
 }
 
 fn load(scene: &Scene, text: &str) -> Exhibit {
-    exhibit::load(Folder::exhibit(&scene.glb(), text).path())
-        .unwrap_or_else(|report| panic!("{}", report.render(false)))
+    exhibit::load(Folder::exhibit(&scene.glb(), text).path()).unwrap_or_else(|report| panic!("{}", report.to_text()))
 }
 
 const BOX: &str = "[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n";
@@ -51,7 +50,7 @@ fn a_linear_animation_is_followed_through_still_parents() {
 }
 
 #[test]
-fn stepped_and_cubic_animations_are_followed_in_their_way() {
+fn stepped_and_cubic_animations_are_interpolated_as_gltf_says() {
     let (mut scene, swing) = scene();
     scene.animate(
         "Hop",
@@ -85,7 +84,7 @@ fn stepped_and_cubic_animations_are_followed_in_their_way() {
 }
 
 #[test]
-fn a_nail_on_a_path_or_a_driven_node_moves() {
+fn a_nail_on_a_path_or_a_kinematic_node_moves() {
     let text = format!(
         "{BOX}[[constraint.nail]]\nname = \"thread\"\nbody = \"Box\"\n\
          to = {{ path = {{ points = [[0, 0.5, 1, 0], [1, 0.6, 1.2, 0], [2, 0.5, 1, 0]], loop = true }} }}\n"
@@ -108,7 +107,7 @@ fn a_nail_on_a_path_or_a_driven_node_moves() {
 }
 
 #[test]
-fn a_figure_may_start_scattered_only_where_it_assembles_itself() {
+fn a_mechanism_may_start_scattered_only_if_it_assembles() {
     let nail = "[[constraint.nail]]\nname = \"pin\"\nbody = \"Box\"\nto = [0.5, 1, 0]\n";
     let scattered = format!("{BOX}initial = {{ position = [2, 0, \"30 cm\"], rotation = [0, 0, 0.6, 0.8] }}\n{nail}");
     let report = exhibit::load(Folder::exhibit(&scene().0.glb(), &scattered).path()).expect_err("it would be torn");

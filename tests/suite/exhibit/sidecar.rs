@@ -6,7 +6,7 @@
 use std::path::PathBuf;
 
 use soffio_detector::BlowDetector;
-use soffio_exhibit::{self as exhibit, AttractAction, Diagnostic, Exhibit, Report, codes};
+use soffio_exhibit::{self as exhibit, AttractAction, Diagnostic, Exhibit, ImpactFrame, Report, codes};
 use soffio_geometry::support::Core;
 use soffio_math::{DVec3, PI};
 use soffio_multibody::articulation::{ConstraintKind, LimitKind};
@@ -85,7 +85,7 @@ caption = { rings = "[rings]" }
 "##;
 
 fn good() -> Exhibit {
-    load(GOOD).unwrap_or_else(|report| panic!("{}", report.render(false)))
+    load(GOOD).unwrap_or_else(|report| panic!("{}", report.to_text()))
 }
 
 #[test]
@@ -148,7 +148,7 @@ fn a_sounding_plate_is_measured() {
     assert!((spec.body.half_extents[0] - 0.1).abs() < SINGLE && (spec.body.half_extents[1] - 0.05).abs() < SINGLE);
     assert!((spec.body.thickness - 1e-3).abs() < SINGLE && (spec.body.area - 0.02).abs() < SINGLE);
     assert!((spec.gain - 0.501_187).abs() < SINGLE, "{}", spec.gain);
-    let (long, wide, center) = exhibit.sounds[0].frame;
+    let ImpactFrame { longest: long, middle: wide, center } = exhibit.sounds[0].frame;
     assert!(long.y.abs() > 1.0 - SINGLE && wide.x.abs() > 1.0 - SINGLE && center.length() < SINGLE);
 }
 
@@ -176,7 +176,7 @@ fn resistances_of_surfaces_add_unless_their_pair_says_otherwise() {
                 [[collider]]\nnode = \"Boom\"\nmaterial = \"steel\"\nshape = { sphere = { radius = 0.01 } }\n\
                 [[body]]\nnode = \"Plate\"\nmaterial = \"steel\"\n[[body]]\nnode = \"Boom\"\nmass = 1\n\
                 inertia = { diagonal = [1, 1, 1] }\n";
-    let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let of = |a: usize, b: usize| exhibit.surface_pair(Pair { a, b }).resistance;
     let same = |found: RollingResistance, rolling: f64, spinning: f64| {
         assert!((found.rolling - rolling).abs() < 1e-12 && (found.spinning - spinning).abs() < 1e-12, "{found:?}");
@@ -193,7 +193,7 @@ fn resistances_of_surfaces_add_unless_their_pair_says_otherwise() {
 #[test]
 fn an_open_sheet_weighs_by_its_thickness() {
     let text = "[[body]]\nnode = \"Flag\"\nmaterial = \"steel\"\nthickness = \"0.5 mm\"\n";
-    let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let expected = 0.02 * 5e-4 * 7850.0;
     assert!((exhibit.bodies[0].properties.mass - expected).abs() < SINGLE * expected);
 }
@@ -300,7 +300,7 @@ fn bad_sidecars_give_all_their_problems_each_at_its_line() {
             problems.map(|d| format!("{}:{}", d.code, d.location.as_ref().map_or(0, |l| l.line))).collect();
         found.sort_unstable();
         if expected.is_empty() || found != expected {
-            wrong += &format!("{}: {found:?}, expected {expected:?}\n{}", path.display(), report.render(false));
+            wrong += &format!("{}: {found:?}, expected {expected:?}\n{}", path.display(), report.to_text());
         }
         cases += 1;
     }
@@ -311,7 +311,7 @@ fn bad_sidecars_give_all_their_problems_each_at_its_line() {
 #[test]
 fn a_report_shows_the_line_and_near_names_and_speaks_json() {
     let report = load("[[body]]\nnode = \"Boon\"\nmaterial = \"stel\"\nmass = 1\n").expect_err("two misspelt names");
-    let shown = report.render(false);
+    let shown = report.to_text();
     for part in ["E0207", "\"Boon\"", "node = \"Boon\"", "\"Boom\"", "exhibit.toml:4:8"] {
         assert!(shown.contains(part), "{part} is missing in\n{shown}");
     }

@@ -17,7 +17,7 @@ fn load(text: &str) -> Exhibit {
     let body =
         "[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n[[collider]]\nnode = \"Box\"\nshape = { fit = \"box\" }\n";
     exhibit::load(Folder::exhibit(&scene.glb(), &format!("{body}{text}")).path())
-        .unwrap_or_else(|report| panic!("{text}\n{}", report.render(false)))
+        .unwrap_or_else(|report| panic!("{text}\n{}", report.to_text()))
 }
 
 /// A nail with these keys besides.
@@ -102,7 +102,7 @@ fn functions_are_numbers_keys_or_waves() {
         scene.node("Stand", [0.0, 1.0, 0.0], None, &[]);
         let body = "[[body]]\nnode = \"Box\"\nmaterial = \"oak\"\n";
         let folder = Folder::exhibit(&scene.glb(), &format!("{body}{text}stiffness = {stiffness}\n"));
-        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.render(false))).springs[0]
+        exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text())).springs[0]
             .stiffness
             .clone()
     };

@@ -84,7 +84,9 @@ fn key_frames_read_back_are_where_the_run_was_in_every_step() {
 
 #[test]
 fn textures_lights_and_layers_read_back_as_they_were() {
-    use model::{Appearance, Image, Levels, Light, LightKind, Mesh, Node, Primitive, Sampler, TextureUse, Wrap};
+    use model::{
+        Appearance, Image, Levels, Light, LightKind, Mesh, Node, Primitive, Sampler, ScaledTexture, TextureUse, Wrap,
+    };
     let (s, c) = (0.6_f32, 0.8_f32);
     let texture = TextureUse {
         image: 0,
@@ -101,7 +103,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
     let look = Appearance {
         name: "all".into(),
         base_color_texture: Some(texture),
-        normal_texture: Some((TextureUse::of(0), 0.5)),
+        normal_texture: Some(ScaledTexture { texture: TextureUse::of(0), scale: 0.5 }),
         emissive: [4.0, 2.0, 0.0],
         alpha: model::AlphaMode::Mask(0.25),
         double_sided: true,
@@ -120,7 +122,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
             specular_color: Some(plain),
             coat: Some(plain),
             coat_roughness: Some(plain),
-            coat_normal: Some((plain, 0.5)),
+            coat_normal: Some(ScaledTexture { texture: plain, scale: 0.5 }),
             sheen: Some(plain),
             sheen_roughness: Some(plain),
         },

@@ -10,7 +10,7 @@ use soffio_sound::SoundCommand;
 
 fn load() -> Arc<Exhibit> {
     let folder = exhibit::resolve("marionette").unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text())))
 }
 
 fn index(exhibit: &Exhibit, name: &str) -> usize {

@@ -43,7 +43,7 @@ fn still(name: &str, shape: &str) -> String {
 
 fn load(scene: &Scene, sidecar: &str) -> Arc<Exhibit> {
     let folder = Folder::exhibit(&scene.glb(), sidecar);
-    Arc::new(exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{sidecar}\n{}", report.render(false))))
+    Arc::new(exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{sidecar}\n{}", report.to_text())))
 }
 
 /// What is heard of a scene.
@@ -380,7 +380,7 @@ fn striped(texture: &str) -> Result<Arc<Exhibit>, String> {
     let mut png = std::io::Cursor::new(Vec::new());
     pixels.write_to(&mut png, image::ImageFormat::Png).expect("in memory");
     folder.write("stripes.png", &png.into_inner());
-    exhibit::load(folder.path()).map(Arc::new).map_err(|report| report.render(false))
+    exhibit::load(folder.path()).map(Arc::new).map_err(|report| report.to_text())
 }
 
 #[test]
@@ -425,7 +425,7 @@ fn a_timbre_that_the_motion_does_not_play_is_refused() {
         let loaded = exhibit::load(Folder::exhibit(&scene.glb(), &sidecar).path());
         match loaded {
             Ok(_) => assert!(fine, "{on} {timbre}"),
-            Err(report) => assert!(!fine && report.render(false).contains("E0264"), "{}", report.render(false)),
+            Err(report) => assert!(!fine && report.to_text().contains("E0264"), "{}", report.to_text()),
         }
     }
 }

@@ -54,15 +54,15 @@ impl Context<'_> {
         let Some((a, b)) = self.pivot(&given.body, given.at.as_ref(), given.to.as_ref(), &header) else { return };
         let Some(axis) = self.own_axis(&given.body, given.axis, &header) else { return };
         let first = out.constraints.len();
-        let way = self.pose_of(a.body).vector(axis.direction);
-        self.planes(out, &header, (a, b), way);
+        let direction_world = self.pose_of(a.body).vector(axis.direction);
+        self.planes(out, &header, (a, b), direction_world);
         self.across(out, &header, axis, b.body);
-        let (t, n) = tangents(way);
+        let (t, n) = tangents(direction_world);
         let fixed = |this: &Self, body, v| Axis { body, direction: this.pose_of(body).inverse_vector(v) };
         let about = perpendicular(fixed(self, a.body, t), fixed(self, b.body, n));
         self.push(out, &header, "about", about, None);
         self.record_header_origins(&header, "slider", out, first);
-        let measure = Measure::Way { point: a, direction: fixed(self, b.body, way) };
+        let measure = Measure::Way { point: a, direction: fixed(self, b.body, direction_world) };
         if let Some(stops) = given.limit {
             let range = (stops.min.map(|x| x.0), stops.max.map(|x| x.0), stops.restitution);
             self.stops(out, &header, measure, range);
@@ -75,8 +75,8 @@ impl Context<'_> {
         let Some((a, b)) = self.pivot(&given.body, given.at.as_ref(), given.to.as_ref(), &header) else { return };
         let Some(axis) = self.target_axis(given.to.as_ref(), given.direction, b, "direction", &header) else { return };
         let first = out.constraints.len();
-        let way = self.pose_of(axis.body).vector(axis.direction);
-        self.planes(out, &header, (a, b), way);
+        let direction_world = self.pose_of(axis.body).vector(axis.direction);
+        self.planes(out, &header, (a, b), direction_world);
         self.record_header_origins(&header, "line", out, first);
     }
 
@@ -146,9 +146,9 @@ impl Context<'_> {
         }
     }
 
-    /// Two planes through `b` along `way` (world, in the model) that keep `a` on a line.
-    fn planes(&mut self, out: &mut Joints, header: &Header, (a, b): (Anchor, Anchor), way: DVec3) {
-        let (t, n) = tangents(way);
+    /// Two planes through `b` along `direction_world` (world, in the model) that keep `a` on a line.
+    fn planes(&mut self, out: &mut Joints, header: &Header, (a, b): (Anchor, Anchor), direction_world: DVec3) {
+        let (t, n) = tangents(direction_world);
         for (part, normal) in [("plane-1", t), ("plane-2", n)] {
             let normal = self.pose_of(b.body).inverse_vector(normal);
             let kind = ConstraintKind::PointOnPlane { point: a, plane: b, normal, offset: Function::default() };

@@ -168,16 +168,17 @@ impl Context<'_> {
         // The trains so far, without rings: a gear whose wheels are in one train already closes a ring.
         let mut train: Vec<&Mesh> = Vec::new();
         for gear in &gears {
-            let Some(way) = route(&train, gear.a, gear.b) else {
+            let Some(path) = route(&train, gear.a, gear.b) else {
                 train.push(gear);
                 continue;
             };
-            let turns = way.iter().map(|(_, ratio)| ratio).product::<f64>();
+            let turns = path.iter().map(|(_, ratio)| ratio).product::<f64>();
             let product = gear.ratio / turns;
             if (product - 1.0).abs() <= RATIO {
                 continue;
             }
-            let names: Vec<&str> = way.iter().map(|(gear, _)| gear.name.as_str()).chain([gear.name.as_str()]).collect();
+            let names: Vec<&str> =
+                path.iter().map(|(gear, _)| gear.name.as_str()).chain([gear.name.as_str()]).collect();
             let message = format!("gear \"{}\" closes a ring that cannot turn: {}", gear.name, names.join(", "));
             let label = format!("around the ring, one turn becomes {product:.6} turns");
             let help = "the product of all ratios must be 1; an odd ring of external gears always jams";
@@ -195,19 +196,19 @@ impl Context<'_> {
             return None;
         };
         // Rotations are comparable where both wheels of every gear rotate about parallel axles of one frame.
-        let way = |axis: &Axis| self.pose_of(axis.body).vector(axis.direction);
-        let sense = way(u).dot(way(v));
+        let axis_world = |axis: &Axis| self.pose_of(axis.body).vector(axis.direction);
+        let sense = axis_world(u).dot(axis_world(v));
         if f != g || sense.abs() < PARALLEL {
             return None;
         }
         // Right-handed about one direction for all: a·dφ_a + b·dφ_b = 0.
         let upright = |axis: &Axis| {
-            let w = way(axis);
+            let w = axis_world(axis);
             w.to_array().into_iter().find(|x| x.abs() > UPRIGHT).unwrap_or(1.0).signum()
         };
         let ratio = -(a.coefficient * upright(u)) / (b.coefficient * upright(v));
         let mut wheel = |axis: &Axis| {
-            let (body, along) = (axis.body?, way(axis));
+            let (body, along) = (axis.body?, axis_world(axis));
             let known = wheels.iter().position(|(b, w)| *b == body && w.dot(along).abs() > PARALLEL);
             Some(known.unwrap_or_else(|| {
                 wheels.push((body, along));
@@ -221,14 +222,14 @@ impl Context<'_> {
 /// The gears from one wheel to another, each with its transmission ratio.
 fn route<'m>(train: &[&'m Mesh], from: usize, to: usize) -> Option<Vec<(&'m Mesh, f64)>> {
     let mut waiting = vec![(from, Vec::<(&Mesh, f64)>::new())];
-    while let Some((here, way)) = waiting.pop() {
+    while let Some((here, path)) = waiting.pop() {
         if here == to {
-            return Some(way);
+            return Some(path);
         }
         for &gear in train {
-            let back = way.last().is_some_and(|(last, _)| std::ptr::eq(*last, gear));
+            let back = path.last().is_some_and(|(last, _)| std::ptr::eq(*last, gear));
             if let Some((there, ratio)) = gear.across(here).filter(|_| !back) {
-                waiting.push((there, way.iter().copied().chain([(gear, ratio)]).collect()));
+                waiting.push((there, path.iter().copied().chain([(gear, ratio)]).collect()));
             }
         }
     }

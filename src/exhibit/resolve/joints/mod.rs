@@ -33,8 +33,11 @@ const MAX_CONSTRAINTS: usize = 4096;
 /// Results of the constraint tables.
 #[derive(Default)]
 pub(super) struct Joints {
+    /// Constraints of the solver, in the order of the tables.
     pub constraints: Vec<Constraint>,
+    /// Limits of joint coordinates, distances and tilts.
     pub limits: Vec<Limit>,
+    /// Springs, with their dampers.
     pub springs: Vec<Spring>,
     /// Free coordinates of hinges and sliders, for tables that refer to them with `of`.
     free: Vec<(String, Measure)>,

@@ -168,7 +168,7 @@ impl Tree {
         let (body, frame) = measure.bodies();
         let (direction, turns) = match measure {
             Measure::Angle { axis, .. } => (direction(exhibit, axis), true),
-            Measure::Way { direction: way, .. } => (direction(exhibit, way), false),
+            Measure::Way { direction: slide, .. } => (direction(exhibit, slide), false),
         };
         let mut out = Vec::new();
         let mut at = body;
@@ -244,7 +244,7 @@ fn joint<'a>(exhibit: &Exhibit, body: usize, between: &[&'a Constraint]) -> Opti
             _ => None,
         })
         .collect();
-    let way = match planes.as_slice() {
+    let slide_axis = match planes.as_slice() {
         [(_, n), (_, m)] => n.cross(*m).try_normalize(),
         _ => None,
     };
@@ -252,8 +252,8 @@ fn joint<'a>(exhibit: &Exhibit, body: usize, between: &[&'a Constraint]) -> Opti
         (Some(p), 1, 0) => (vec![Freedom::Rotation(right[0].0), Freedom::Rotation(right[0].1)], p),
         (Some(p), 2, 0) => (vec![axis_of(exhibit, between).map_or(Freedom::Ball, Freedom::Rotation)], p),
         (Some(p), 3, 0) => (Vec::new(), p),
-        (None, 3, 2) => (vec![Freedom::Translation(way?)], planes[0].0),
-        (None, 0, 2) => (vec![Freedom::Translation(way?), Freedom::Ball], planes[0].0),
+        (None, 3, 2) => (vec![Freedom::Translation(slide_axis?)], planes[0].0),
+        (None, 0, 2) => (vec![Freedom::Translation(slide_axis?), Freedom::Ball], planes[0].0),
         // The first of several points is the joint's; the others are closed by equalities.
         (Some(p), _, _) => (vec![Freedom::Ball], p),
         _ => return None,

@@ -1,4 +1,4 @@
-//! Exhibits gather themselves from scattered parts when they come on, and then are as after a reset.
+//! Assembly: exhibits assemble from scattered parts when they are shown, and then are as after a reset.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use soffio_simulation::{
 
 fn load(id: &str) -> Arc<Exhibit> {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false))))
+    Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text())))
 }
 
 fn steps(seconds: f64) -> u64 {
@@ -17,7 +17,7 @@ fn steps(seconds: f64) -> u64 {
 }
 
 #[test]
-fn what_may_not_gather_is_reset() {
+fn an_exhibit_without_assembly_is_reset() {
     let mut exhibit = Exhibit::clone(&load("pendulum"));
     exhibit.assembles = false;
     let exhibit = Arc::new(exhibit);
@@ -32,30 +32,30 @@ fn what_may_not_gather_is_reset() {
 }
 
 #[test]
-fn a_script_gathers_and_a_hand_and_a_breath_do_not_hinder_it() {
+fn a_script_starts_assembly_which_grabs_and_breaths_do_not_disturb() {
     let mut script = Script::parse("{\"t\": 0.5, \"gather\": 4}").expect("a good script");
     let mut simulation = Simulation::new(load("twelve-moons"), Settings::default());
-    let mut gathered = false;
+    let mut assembled = false;
     for step in 0..steps(0.5 + ASSEMBLY_DURATION) + 2 {
         let mut commands = Vec::new();
         script.due(step as f64 / STEPS_PER_SECOND as f64, &mut commands);
         commands.push(Command::Blow(Some(8.0)));
         simulation.step(&StepInput { commands: &commands, ..StepInput::default() });
-        gathered |= simulation.assembly_distance().is_some();
+        assembled |= simulation.assembly_distance().is_some();
         assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "step {step}");
     }
-    assert!(gathered && simulation.assembly_distance().is_none());
+    assert!(assembled && simulation.assembly_distance().is_none());
     assert!(simulation.joint_error() < 1e-9, "{} m", simulation.joint_error());
 }
 
 #[test]
-fn position_based_parts_gather_too_at_any_change_of_the_kind_of_motion() {
+fn position_based_parts_assemble_at_any_change_of_motion_mode() {
     /// Δ₀ (1 + Ωt) e^(−Ωt) of half a metre at the end is 0.2 µm, m.
     const HOME: f64 = 5e-6;
     let positions = Some(MotionMode::PositionBased);
     let modes: [fn(u64) -> Option<MotionMode>; 3] = [
         |_| Some(MotionMode::PositionBased),
-        // As a governor that comes to it, and goes back.
+        // As a work limit that is reached, and left again.
         |step| (step > 300).then_some(MotionMode::PositionBased),
         |step| (step % 400 < 200).then_some(MotionMode::PositionBased),
     ];
@@ -76,7 +76,7 @@ fn position_based_parts_gather_too_at_any_change_of_the_kind_of_motion() {
                 }
                 before = Some(places);
             }
-            let away = simulation.assembly_distance().expect("it still gathers");
+            let away = simulation.assembly_distance().expect("it still assembles");
             assert!(away < HOME, "{id}: {away} m from home");
             // Ω Δ₀/e of a metre a second at most, by the field's word; joints may pull somewhat harder.
             assert!(fastest * STEPS_PER_SECOND as f64 <= 4.0, "{id}: no part jumps: {fastest} m in a step");

@@ -1,4 +1,4 @@
-//! Visitors take an exhibit by the hand: what is under the finger is found, and nothing that hands do breaks it.
+//! Pointer grabs: the body under the finger is found, and no grab causes a fault.
 
 use soffio_geometry::rays::Occluders;
 use soffio_math::noise::Random;
@@ -17,11 +17,11 @@ fn begin(id: &str) -> Simulation {
     Simulation::new(load(id), Settings::default())
 }
 
-fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[PointerGrab]) {
-    simulation.step(&StepInput { mode: Some(mode), pointer_grabs: hands, ..StepInput::default() });
+fn step(simulation: &mut Simulation, mode: MotionMode, grabs: &[PointerGrab]) {
+    simulation.step(&StepInput { mode: Some(mode), pointer_grabs: grabs, ..StepInput::default() });
 }
 
-pub fn the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle(id: &str) {
+pub fn the_first_body_on_a_view_ray_is_found_as_by_testing_every_triangle(id: &str) {
     /// Both are single precision, but part by part and ray by ray in the same order: no difference.
     const SEED: u64 = 20;
     let mut met = 0;
@@ -39,41 +39,41 @@ pub fn the_first_thing_on_a_sight_line_is_found_as_by_asking_every_triangle(id: 
     RAYS.add(met);
 }
 
-/// Two rounds of one hand to four.
-pub fn no_handling_breaks_anything(id: &str) {
+/// Two rounds of one to four grabs at once.
+pub fn grabs_cause_no_fault(id: &str) {
     handled(id, 2);
 }
 
-pub fn no_handling_breaks_anything_in_twenty_seconds(id: &str) {
+pub fn grabs_cause_no_fault_in_twenty_seconds(id: &str) {
     handled(id, 20);
 }
 
 fn handled(id: &str, seconds: usize) {
-    /// Rad and m: what four hands ask at once may not be possible; joints give way by no more.
+    /// Largest joint error, rad and m: four grabs at once may demand the impossible.
     const OPEN: f64 = 1e-6;
     /// The same of a bead whose nail comes back, at twelve seconds, while it is held at the end of its rail, m: it is drawn home
     /// from there.
     const RAIL: f64 = 0.165 + OPEN;
-    /// Steps put back: limbs that four hands pull straight against their stops leave the laws no answer, about once
-    /// a minute; the figure then stands still for a step.
+    /// Restored steps: limbs that four grabs pull straight against their stops leave the solver no solution, about once a
+    /// minute; the mechanism then stands still for a step.
     const FAULTS: u64 = 1;
     const SEED: u64 = 41;
     for mode in MODES {
         let mut simulation = begin(id);
         let mut random = Random::new(SEED);
-        let (mut hands, mut worst, mut fastest): (Vec<PointerGrab>, f64, f64) = (Vec::new(), 0.0, 0.0);
+        let (mut grabs, mut worst, mut fastest): (Vec<PointerGrab>, f64, f64) = (Vec::new(), 0.0, 0.0);
         let count = simulation.exhibit().bodies.len();
         for index in 0..seconds * 240 {
             if index % 60 == 0 {
-                hands.clear();
+                grabs.clear();
                 for hand in 0..1 + index / 60 % 4 {
                     let body = Some((random.unit() * count as f64) as usize);
-                    hands.push(PointerGrab { id: (index + hand) as u64, at: [random.unit(), random.unit()], body });
+                    grabs.push(PointerGrab { id: (index + hand) as u64, at: [random.unit(), random.unit()], body });
                 }
             } else if index % 12 == 0 {
-                hands.iter_mut().for_each(|hand| hand.at = [random.unit(), random.unit()]);
+                grabs.iter_mut().for_each(|hand| hand.at = [random.unit(), random.unit()]);
             }
-            step(&mut simulation, mode, &hands);
+            step(&mut simulation, mode, &grabs);
             for body in simulation.bodies() {
                 assert!(body.is_finite(), "{id}, {mode:?}, step {index}, seed {SEED}");
                 fastest = fastest.max(body.velocity.length());

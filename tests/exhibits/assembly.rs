@@ -15,7 +15,7 @@ fn steps(seconds: f64) -> u64 {
     (seconds * STEPS_PER_SECOND as f64) as u64
 }
 
-pub fn gathers_itself_in_a_few_seconds(id: &str) {
+pub fn assembles_in_a_few_seconds(id: &str) {
     let exhibit = load(id);
     for seed in [1, 2] {
         let mut simulation = Simulation::new(exhibit.clone(), Settings::default());
@@ -26,7 +26,7 @@ pub fn gathers_itself_in_a_few_seconds(id: &str) {
             simulation.step(&StepInput { commands, ..StepInput::default() });
             assert!(simulation.events().iter().all(|e| e.kind != EventKind::Fault), "{id}, seed {seed}: step {step}");
             assert!(simulation.sounds().iter().all(|s| !matches!(s, soffio_sound::SoundCommand::Strike(_))), "{id}");
-            last = simulation.assembly_distance().unwrap_or_else(|| panic!("{id} does not gather"));
+            last = simulation.assembly_distance().unwrap_or_else(|| panic!("{id} does not assemble"));
             first = first.max(last);
             if step == steps(2.0 / 3.0 * ASSEMBLY_DURATION) {
                 open = simulation.joint_error();

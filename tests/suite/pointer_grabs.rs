@@ -1,5 +1,4 @@
-//! Visitors take a sculpture by the hand: what is under the finger is taken, follows, can be thrown, and nothing that
-//! hands do breaks it.
+//! Pointer grabs: the body under the finger is grabbed, follows it and can be thrown, in every motion mode.
 
 use std::sync::Arc;
 
@@ -13,7 +12,7 @@ const ASPECT: f64 = 16.0 / 9.0;
 
 fn load(id: &str) -> Exhibit {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
-    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.render(false)))
+    exhibit::load(&folder).unwrap_or_else(|report| panic!("{id}: {}", report.to_text()))
 }
 
 fn begin(id: &str) -> Simulation {
@@ -25,17 +24,17 @@ fn body(simulation: &Simulation, name: &str) -> usize {
     found.unwrap_or_else(|| panic!("no body {name}"))
 }
 
-/// Where a body's centre of mass is seen.
-fn seen(simulation: &Simulation, body: usize) -> [f64; 2] {
+/// Position of a body's centre of mass in the picture.
+fn screen_position(simulation: &Simulation, body: usize) -> [f64; 2] {
     simulation.view(ASPECT).project(simulation.bodies()[body].position, ASPECT).expect("in front of the eye")
 }
 
-fn step(simulation: &mut Simulation, mode: MotionMode, hands: &[PointerGrab]) {
-    simulation.step(&StepInput { mode: Some(mode), pointer_grabs: hands, ..StepInput::default() });
+fn step(simulation: &mut Simulation, mode: MotionMode, grabs: &[PointerGrab]) {
+    simulation.step(&StepInput { mode: Some(mode), pointer_grabs: grabs, ..StepInput::default() });
 }
 
 #[test]
-fn what_is_taken_follows_the_finger_in_every_kind_of_motion() {
+fn a_grabbed_body_follows_the_finger_in_every_motion_mode() {
     /// After a second at rest, m: the steady pull of gravity against a grab by speed costs at most g Δt τ = 2 mm. It is
     /// larger by 1/cos² of the angle between view ray and displacement. The procedural rule ignores small
     /// displacements, so more of gravity remains.
@@ -43,24 +42,24 @@ fn what_is_taken_follows_the_finger_in_every_kind_of_motion() {
     for (mode, near) in MODES.into_iter().zip(NEAR) {
         let mut simulation = begin("pendulum");
         let bob = body(&simulation, "Pendulum");
-        let start = seen(&simulation, bob);
+        let start = screen_position(&simulation, bob);
         let held = simulation.bodies()[bob].pose().inverse_point(simulation.bodies()[bob].position);
         let began = simulation.bodies()[bob].position;
         let mut at = start;
         for index in 0..480 {
             let s = (index as f64 / 240.0).min(1.0);
             at = [start[0] + 0.06 * s, start[1]];
-            let hands = [PointerGrab { id: 7, at, body: Some(bob) }];
+            let grabs = [PointerGrab { id: 7, at, body: Some(bob) }];
             if index < 60 {
-                // What grows to its size once has grown after a while.
-                step(&mut simulation, mode, &hands);
+                // Buffers have their final size after a while.
+                step(&mut simulation, mode, &grabs);
             } else {
-                assert_no_alloc(|| step(&mut simulation, mode, &hands));
+                assert_no_alloc(|| step(&mut simulation, mode, &grabs));
             }
             assert_eq!(simulation.snapshot().diagnostics.grabs, 1, "{mode:?}: the finger has the bob");
         }
-        // The bob swings about the z axis of its knife: of all places on that circle it is at the one that is nearest to
-        // the finger's sight line, however obliquely the eye looks at the circle.
+        // The bob swings about the z axis of its knife edge: of all positions on that circle it takes the one that is
+        // nearest to the view ray of the finger, however obliquely the camera sees the circle.
         let (eye, ray) = simulation.view(ASPECT).ray(at, ASPECT);
         let knife = simulation.bodies()[bob].pose().position;
         let now = simulation.bodies()[bob].pose().point(held);
@@ -76,11 +75,11 @@ fn what_is_taken_follows_the_finger_in_every_kind_of_motion() {
 }
 
 #[test]
-fn what_is_thrown_flies_on_and_what_is_held_still_stays() {
+fn a_thrown_body_flies_on_and_a_body_held_still_stays() {
     for mode in MODES {
         let mut simulation = begin("pendulum");
         let bob = body(&simulation, "Pendulum");
-        let start = seen(&simulation, bob);
+        let start = screen_position(&simulation, bob);
         for index in 0..60 {
             let at = [start[0] + 0.12 * f64::from(index) / 60.0, start[1]];
             step(&mut simulation, mode, &[PointerGrab { id: 1, at, body: None }]);
@@ -96,13 +95,13 @@ fn what_is_thrown_flies_on_and_what_is_held_still_stays() {
 }
 
 #[test]
-fn what_may_not_be_touched_is_not() {
+fn a_body_without_touch_permission_is_not_grabbed() {
     let mut exhibit = load("pendulum");
     exhibit.touch.permitted = false;
     let exhibit = Arc::new(exhibit);
     let [mut left, mut right] = [(); 2].map(|()| Simulation::new(exhibit.clone(), Settings::default()));
     let bob = body(&left, "Pendulum");
-    let at = seen(&left, bob);
+    let at = screen_position(&left, bob);
     for index in 0..240 {
         let at = [at[0] + 0.001 * f64::from(index), at[1]];
         step(&mut left, MotionMode::Dynamic, &[PointerGrab { id: 1, at, body: None }]);
@@ -112,21 +111,21 @@ fn what_may_not_be_touched_is_not() {
 }
 
 #[test]
-fn a_script_has_hands() {
+fn a_script_can_grab() {
     let text = "{\"t\": 0.1, \"grab\": {\"body\": \"Pendulum\"}}\n{\"t\": 0.2, \"drag\": [0.7, 0.6]}\n\
                 {\"t\": 0.3, \"grab\": {\"at\": [0.5, 0.9]}, \"hand\": 1}\n{\"t\": 1.0, \"release\": true}";
     let mut script = Script::parse(text).expect("a good script");
     let simulation = begin("pendulum");
     script.fits(simulation.exhibit()).expect("it has a bob");
     let mut at = |t: f64| {
-        let mut hands = Vec::new();
+        let mut grabs = Vec::new();
         script.due(t, &mut Vec::new());
-        script.pointer_grabs(&simulation, ASPECT, &mut hands);
-        hands
+        script.pointer_grabs(&simulation, ASPECT, &mut grabs);
+        grabs
     };
     assert!(at(0.0).is_empty());
     let bob = body(&simulation, "Pendulum");
-    assert_eq!(at(0.1), [PointerGrab { id: 1, at: seen(&simulation, bob), body: Some(bob) }]);
+    assert_eq!(at(0.1), [PointerGrab { id: 1, at: screen_position(&simulation, bob), body: Some(bob) }]);
     assert_eq!(at(0.25), [PointerGrab { id: 1, at: [0.7, 0.6], body: Some(bob) }]);
     assert_eq!(at(0.5).len(), 2);
     assert_eq!(at(1.5), [PointerGrab { id: 2, at: [0.5, 0.9], body: None }]);
