@@ -1,45 +1,45 @@
-//! The ear's school: labelled sounds, training and marks of the blow detector. Nothing here runs in the kiosk.
+//! Synthetic soundscapes: labelled sounds that train and validate the blow detector. Nothing here runs in the kiosk.
 //!
 //! ```text
-//! voices noises own → scenes (rooms) ┐
-//!                    recordings ─────┴→ Take → train → src/wind/blow/table.rs
-//!                                            → score → table with 95 % bounds
+//! voices noises kiosk_sound → scenes (rooms) ┐
+//!                            recordings ─────┴→ Take → train → src/detector/table.rs
+//!                                                    → score → table with 95 % bounds
 //! ```
 //!
-//! A [`Take`] is a sound with its labels: when somebody blows, how strongly, and what else is to be heard. [`scenes::World`]
-//! draws takes from a seed: voices, noises, rooms, one microphone or two, the kiosk's own sound. Worlds from [`EXAM`] on are
-//! never learnt from, so they can be used to test.
+//! A [`Take`] is a sound with its labels: the time and strength of each breath, and the other sounds. A [`scenes::Scenario`] draws
+//! takes from a seed: voices, noises, rooms, one or two capsules, the kiosk's own sound. Scenarios with seeds from
+//! [`FIRST_VALIDATION_SEED`] on are never used for training, so they can validate.
 //!
 //! It never reads a file, a device or a clock, and never runs in the kiosk. The same seed gives the same samples.
 //!
 //! ```
-//! use soffio_soundscape::scenes::{Condition, Hearing, World};
-//! use soffio_soundscape::{EXAM, Kind};
+//! use soffio_soundscape::scenes::{Condition, Hearing, Scenario};
+//! use soffio_soundscape::{FIRST_VALIDATION_SEED, Kind};
 //!
 //! let one = Hearing { gain_db: 0.0, stereo: false };
 //! // A child's breath, straight at the microphone, from 10 cm.
-//! let take = World::new(EXAM + 1).take(Condition::Cell(0.1, 0.0, true), 0, one);
+//! let take = Scenario::new(FIRST_VALIDATION_SEED + 1).take(Condition::Cell(0.1, 0.0, true), 0, one);
 //! assert_eq!(take.kind, Kind::Blow);
 //! assert!(take.breaths.iter().all(|breath| breath.onset < breath.offset));
 //! assert!(take.left.iter().all(|x| x.abs() <= 1.0));
 //! assert!(take.right.is_none(), "one capsule");
 //! ```
 
+pub mod kiosk_sound;
 pub mod noises;
-pub mod own;
 pub mod parallel;
 pub mod rooms;
 pub mod scenes;
 pub mod statistics;
 pub mod voices;
 
-/// Seeds of worlds from here on are never learnt from.
-pub const EXAM: u64 = 1_000_000;
+/// First seed of the scenarios that are reserved for validation: they are never used for training.
+pub const FIRST_VALIDATION_SEED: u64 = 1_000_000;
 
 /// Sample rate of everything that is made, Hz.
 pub const RATE: u32 = 16_000;
 
-/// What a take is, to whoever marks it.
+/// Class of a take, for its score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Somebody blows.
@@ -91,7 +91,7 @@ pub struct Take {
     pub group: String,
     /// What it is, in a word.
     pub label: String,
-    /// What it is, to whoever marks it.
+    /// Class of the take, for its score.
     pub kind: Kind,
     /// The breaths in it.
     pub breaths: Vec<Breath>,

@@ -26,7 +26,7 @@ const LONGEST_S: f64 = 0.6;
 /// apart, Hz.
 pub const ALIKE_HZ: f64 = 2000.0;
 /// Between two capsules, m.
-pub const APART_M: (f64, f64) = (0.02, 0.06);
+pub const SPACING_M: (f64, f64) = (0.02, 0.06);
 /// Length of the transform of a convolution.
 const BLOCK: usize = 1 << 15;
 
@@ -56,14 +56,14 @@ impl Room {
         let microphone = size * DVec3::new(random.range(0.2, 0.8), random.range(0.1, 0.4), 0.0)
             + DVec3::new(0.0, 0.0, random.range(0.9, 1.4));
         let turn = random.range(0.0, PI);
-        let apart = random.range(APART_M.0, APART_M.1);
-        let second = DVec3::new(soffio_math::cos(turn), soffio_math::sin(turn), 0.0) * apart;
+        let spacing = random.range(SPACING_M.0, SPACING_M.1);
+        let second = DVec3::new(soffio_math::cos(turn), soffio_math::sin(turn), 0.0) * spacing;
         let t60 = (0.161 * size.x * size.y * size.z / (absorption * surface)).clamp(0.2, 3.0);
         Self { size, absorption, microphone, second, t60 }
     }
 
     /// Between the two capsules, m.
-    pub fn apart(&self) -> f64 {
+    pub fn spacing(&self) -> f64 {
         self.second.length()
     }
 

@@ -1,18 +1,18 @@
-//! Who blows: breaths before a microphone amid what else there is, and how far they stand above it.
+//! Breaths in front of a microphone among other sounds, and their signal-to-noise ratio.
 
-use super::{Condition, Dry, Hearing, Lips, R, World};
-use crate::rooms::APART_M;
-use crate::{Breath, Kind, RATE, Take, own};
-use soffio_detector::features::QUIETEST_DIFFERENCE;
+use super::{Condition, Dry, Hearing, Lips, R, Scenario};
+use crate::rooms::SPACING_M;
+use crate::{Breath, Kind, RATE, Take, kiosk_sound};
+use soffio_detector::features::MIN_DIFFERENCE_FLOOR;
 use soffio_detector::generate::filter::{high_passed, low_passed, power};
 use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{from_decibels, log10, pow};
 
-/// The longest that anybody blows evenly, s: with attack and release, less than what is latched as a machine's.
+/// Longest steady part of a breath, s: with attack and release it is shorter than the detector's time-out.
 const LONGEST_HOLD_S: f64 = 5.0;
-/// How long a scene has gone on before somebody blows, s: visitors come to rooms that have been loud for long, and what
-/// the ear remembers of the seconds before must be as full in a lesson as there.
+/// Time from the beginning of a scene to the breath, s. Visitors come to rooms that have been loud for long, so the detector's
+/// temporal context must be as full in training.
 const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
 /// A breath that nowhere rises by this much above the noise cannot be heard, dB.
 const FAINT_DB: f64 = 3.0;
@@ -20,7 +20,7 @@ const FAINT_DB: f64 = 3.0;
 /// Power of something that one or two capsules hear.
 type Loudness = fn(&[Vec<f64>]) -> f64;
 
-impl World {
+impl Scenario {
     /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
     pub(super) fn blow(
         &self,
@@ -40,14 +40,14 @@ impl World {
         let streams: Vec<Vec<f64>> = (0..capsules)
             .map(|capsule| {
                 let air = (0..).zip(&shapes).map(|(i, s)| generate::stream(RATE, hash_words(&[seed, i]), s, capsule));
-                lips.heard(air.collect::<Vec<_>>().concat())
+                lips.filtered(air.collect::<Vec<_>>().concat())
             })
             .collect();
-        // How far above the noise: in hiss where the stream goes past the microphone, in what two capsules tell apart, else in all.
+        // Band of the signal-to-noise ratio: hiss for an off-axis breath, the difference of two capsules, otherwise all.
         let (snr, loudness): (_, Loudness) = match condition {
             Condition::Noisy(snr) => (Some(snr), |heard| power(&heard[0])),
             Condition::Aside(snr) => (Some(snr), |heard| hiss(&heard[0])),
-            Condition::Between(snr) => (Some(snr), rumble_apart),
+            Condition::Between(snr) => (Some(snr), rumble_difference),
             _ => (None, |_| 0.0),
         };
         let noisy = snr.is_some();
@@ -87,10 +87,10 @@ impl World {
         }
         let mut played = Vec::new();
         if let Condition::Answered(room) = condition {
-            played = own::answers(seconds, &breaths, random);
+            played = kiosk_sound::answers(seconds, &breaths, random);
             // Headphones, a hearing loop or a cable that fell out: the microphone hears little or nothing of it.
             let loud = if random.unit() < 0.25 { random.range(-60.0, -8.0) } else { random.range(-8.0, 4.0) };
-            self.hear_itself(&played, (room, loud), &mut channels, random);
+            self.add_echo(&played, (room, loud), &mut channels, random);
         }
         let take = self.finish(condition, index, channels, Kind::Blow, breaths, hearing, random);
         let played = played.iter().map(|x| *x as f32).chain(std::iter::repeat(0.0)).take(take.left.len());
@@ -110,15 +110,15 @@ impl World {
         // Soft breaths are as frequent as hard ones: they are the harder to hear.
         let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
         let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
-        let (apart, past_deg) = (pair.range(APART_M.0, APART_M.1), pair.range(0.0, 360.0));
+        let (spacing, azimuth_deg) = (pair.range(SPACING_M.0, SPACING_M.1), pair.range(0.0, 360.0));
         BreathShape {
             lead_in: random.range(LEAD_IN_S.0, LEAD_IN_S.1),
             strength: soft * pow(hard / soft, random.unit()),
             lead_out: random.range(0.8, 1.5),
             distance,
             angle_deg,
-            apart: if hearing.stereo { apart } else { 0.0 },
-            past_deg,
+            spacing: if hearing.stereo { spacing } else { 0.0 },
+            azimuth_deg,
             foam_db: if random.unit() < 0.2 { random.range(4.0, 15.0) } else { 0.0 },
             colour: pow(2.0, random.range(-0.8, 1.4)),
             corner_hz: 5.0,
@@ -152,35 +152,35 @@ impl World {
     }
 }
 
-/// By how much a breath rises above the noise where it does so most, dB: below 200 Hz, above 500 Hz; of two capsules, also in
-/// the rumble that they do not share, and above the voices.
+/// Largest signal-to-noise ratio of a breath over its bands, dB: below 200 Hz, above 500 Hz; with two capsules also the rumble of
+/// their difference, and the high band.
 fn above_noise(breath: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
     let ratio = |of: Loudness| of(breath) / of(noise).max(1e-12);
     let most = ratio(|heard| rumble(&heard[0])).max(ratio(|heard| hiss(&heard[0])));
-    let apart = rumble_apart(breath) / (rumble_apart(noise) + QUIETEST_DIFFERENCE);
+    let difference = rumble_difference(breath) / (rumble_difference(noise) + MIN_DIFFERENCE_FLOOR);
     let treble = if breath.len() == 2 { ratio(|heard| treble(&heard[0])) } else { 0.0 };
-    10.0 * log10(most.max(apart).max(treble).max(1e-12))
+    10.0 * log10(most.max(difference).max(treble).max(1e-12))
 }
 
-/// Power of what lies below 200 Hz.
+/// Power below 200 Hz.
 fn rumble(x: &[f64]) -> f64 {
     power(&low_passed(x.to_vec(), R, 200.0, 2))
 }
 
-/// The same of half the difference of two capsules, which have no wave quite alike ([`super::UNLIKE`]); of one capsule, all of it.
-fn rumble_apart(heard: &[Vec<f64>]) -> f64 {
+/// Power below 200 Hz of half the difference of two capsules, which never match exactly ([`super::UNLIKE`]); with one capsule, all of it.
+fn rumble_difference(heard: &[Vec<f64>]) -> f64 {
     const LEFT: f64 = 1e-3;
     let [first, second] = heard else { return rumble(&heard[0]) };
     rumble(&first.iter().zip(second).map(|(a, b)| 0.5 * (a - b)).collect::<Vec<_>>()) + LEFT * rumble(first)
 }
 
-/// Power of what lies from 500 Hz to 3 kHz.
+/// Power from 500 Hz to 3 kHz.
 fn hiss(x: &[f64]) -> f64 {
     power(&low_passed(high_passed(x.to_vec(), R, 500.0, 2), R, 3000.0, 2))
 }
 
-/// Power of what lies above the voices (`wind/blow/upper.rs`): so near the highest that is heard a pass is little more
-/// than a difference of neighbours, and six of them leave 3 kHz 17 dB below 6.
+/// Power of the high band (`detector/high_band.rs`). So near half the sample rate one high-pass is little more than a difference of
+/// neighbours; six of them leave 3 kHz 17 dB below 6 kHz.
 fn treble(x: &[f64]) -> f64 {
     power(&high_passed(x.to_vec(), R, 4400.0, 6))
 }
@@ -197,9 +197,9 @@ mod tests {
         let mut random = Random::new(5);
         let [one, other] = [(); 2].map(|()| white(RATE as usize, &mut random));
         let all = rumble(&one);
-        assert!(rumble_apart(&[one.clone(), one.clone()]) < 1.1e-3 * all);
-        assert!((rumble_apart(std::slice::from_ref(&one)) - all).abs() < ROUNDING);
-        let eddies = rumble_apart(&[one, other]) / all;
+        assert!(rumble_difference(&[one.clone(), one.clone()]) < 1.1e-3 * all);
+        assert!((rumble_difference(std::slice::from_ref(&one)) - all).abs() < ROUNDING);
+        let eddies = rumble_difference(&[one, other]) / all;
         assert!(HALF.contains(&eddies), "{eddies} of their power");
     }
 
@@ -228,8 +228,8 @@ mod tests {
 
     #[test]
     fn a_breath_that_only_two_capsules_tell_from_the_crowd_is_not_faint() {
-        let (world, index) = (World::new(11), 3);
-        let take = |snr, stereo| world.take(Condition::Between(snr), index, Hearing { gain_db: 0.0, stereo });
+        let (scenario, index) = (Scenario::new(11), 3);
+        let take = |snr, stereo| scenario.take(Condition::Between(snr), index, Hearing { gain_db: 0.0, stereo });
         let plain = take(20.0, true);
         assert!(plain.right.is_some() && !plain.breaths[0].faint && plain.breaths[0].snr_db == Some(20.0));
         assert!(take(-20.0, true).breaths[0].faint, "drowned in the difference as well");
@@ -242,9 +242,9 @@ mod tests {
 
     #[test]
     fn companions_talk_before_and_while_somebody_blows() {
-        let (world, hearing) = (World::new(11), Hearing { gain_db: 0.0, stereo: true });
+        let (scenario, hearing) = (Scenario::new(11), Hearing { gain_db: 0.0, stereo: true });
         for index in 0..8 {
-            let take = world.take(Condition::Companions, index, hearing);
+            let take = scenario.take(Condition::Companions, index, hearing);
             let talk = |at: f64| {
                 let talks = take.events.iter().filter(|event| event.what == "a companion's talk");
                 talks.filter(|event| event.at <= at && at <= event.until).count()

@@ -8,9 +8,9 @@ use soffio_math::noise::Random;
 use super::super::rooms::convolved;
 use super::super::voices;
 use super::super::{Kind, Take, noises};
-use super::{Condition, Dry, Hearing, PLACES, R, World};
+use super::{Condition, Dry, Hearing, PLACES, R, Scenario};
 
-impl World {
+impl Scenario {
     /// Lasting and sudden sounds of a museum; `busy` scales how many.
     pub(super) fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
@@ -131,7 +131,7 @@ impl World {
         dry
     }
 
-    /// Companions of whoever blows talk and laugh before the kiosk all the while, in a museum that may be empty.
+    /// Companions of the visitor who blows: they talk and laugh in front of the kiosk all the time, in a museum that may be empty.
     pub(super) fn companions(&self, seconds: f64, random: &mut Random) -> Dry {
         let busy = if random.unit() < 0.5 { random.range(0.2, 2.0) } else { 0.0 };
         let mut dry = self.museum_sounds(seconds, busy, random);
@@ -217,7 +217,7 @@ impl World {
         let seconds = 20.0;
         let busy = if random.unit() < 0.5 { random.range(0.2, 2.0) } else { 0.0 };
         let mut dry = self.museum_sounds(seconds, busy, random);
-        // Alone or in a row: what comes after others of its kind is easier to tell.
+        // Alone or in a row: a sound after others of its kind is easier to recognise.
         let longest = random.range(1.0, 9.0);
         let mut at = random.range(0.6, 3.0);
         while at < seconds - 1.0 {

@@ -1,8 +1,8 @@
-//! Labelled scenes: breaths and everything else before a microphone, drawn by a seed.
+//! Labelled scenes: breaths and other sounds in front of a microphone, drawn from a seed.
 //!
-//! A [`World`] is one group of speakers and rooms; training and test use worlds of other seeds, so that they share no
-//! voice, no room and no event. A scene sums dry sounds at places of a room, takes each place through the room's response to
-//! each capsule, adds breath, the bump that comes through the table, and the microphone: corner, noise, gain, rails.
+//! A [`Scenario`] is one group of speakers and rooms. Training and validation use scenarios of different seeds, so they share no
+//! voice, room or event. A scene sums dry sounds at places of a room, and convolves each place with the room's impulse response to
+//! each capsule. It adds breath, bumps through the table, and the microphone: corner, noise, gain, clipping.
 
 mod breaths;
 mod bystanders;
@@ -14,14 +14,14 @@ use soffio_math::{exp, from_decibels, tanh};
 
 use super::rooms::{ALIKE_HZ, Room, convolved};
 use super::voices::{self, Voice, add};
-use super::{Breath, Event, Kind, RATE, Take, noises, own};
+use super::{Breath, Event, Kind, RATE, Take, kiosk_sound, noises};
 pub use lips::Lips;
 
 const R: f64 = RATE as f64;
-/// Voices of a world, and how long each one's speech is before it repeats, s.
+/// Voices of a scenario, and how long each one's speech is before it repeats, s.
 const VOICES: usize = 20;
 const SPEECH_S: f64 = 15.0;
-/// Rooms of a world, and places in each.
+/// Rooms of a scenario, and places in each.
 const ROOMS: usize = 8;
 const PLACES: usize = 5;
 /// By how much two capsules of a kind differ at most: sensitivity, dB; corner, parts.
@@ -52,7 +52,7 @@ pub enum Condition {
     /// Breath by one of a group whose others talk and laugh before the kiosk all the while.
     Companions,
     /// The kiosk itself at full volume in one of three rooms, nobody blows.
-    OwnVoice(u32),
+    KioskSound(u32),
     /// The same, and somebody talks right before it; nobody blows.
     TalkedOver(u32),
     /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
@@ -70,7 +70,7 @@ pub struct Hearing {
 
 /// One group of speakers and rooms.
 #[derive(Debug)]
-pub struct World {
+pub struct Scenario {
     seed: u64,
     voices: Vec<(Voice, Vec<f64>)>,
     rooms: Vec<(Room, Vec<[Vec<f64>; 2]>)>,
@@ -111,8 +111,8 @@ impl Dry {
     }
 }
 
-impl World {
-    /// The world of a seed.
+impl Scenario {
+    /// The scenario of a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(hash_words(&[seed, 0x0076_6f69]));
         let voices = Self::speakers(&mut random);
@@ -186,15 +186,15 @@ impl World {
                 let mouth = (random.range(0.1, 0.45), random.range(20.0, 60.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
             }
-            Condition::OwnVoice(room) | Condition::TalkedOver(room) => {
-                self.own_voice(condition, index, room, hearing, &mut random)
+            Condition::KioskSound(room) | Condition::TalkedOver(room) => {
+                self.kiosk_sound(condition, index, room, hearing, &mut random)
             }
         }
     }
 
     /// Between the two capsules of its first room, m.
-    pub fn apart(&self) -> f64 {
-        self.rooms.first().map_or(0.0, |(room, _)| room.apart())
+    pub fn spacing(&self) -> f64 {
+        self.rooms.first().map_or(0.0, |(room, _)| room.spacing())
     }
 
     /// A stretch of one of the voices.
@@ -240,12 +240,12 @@ impl World {
     }
 
     /// Adds what the microphone hears of what the kiosk plays in a room, this loud (dB).
-    fn hear_itself(&self, played: &[f64], (room, loud): (u32, f64), channels: &mut [Vec<f64>], random: &mut Random) {
+    fn add_echo(&self, played: &[f64], (room, loud): (u32, f64), channels: &mut [Vec<f64>], random: &mut Random) {
         let (_, responses) = &self.rooms[room as usize % self.rooms.len()];
         // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
         let late = (0.02 + 0.035 * f64::from(room)) * R;
         let mut delayed = vec![0.0; late as usize];
-        delayed.extend(own::loudspeaker(played, random));
+        delayed.extend(kiosk_sound::speaker_response(played, random));
         delayed.truncate(played.len());
         let loud = from_decibels(loud);
         for (channel, response) in channels.iter_mut().zip(&responses[PLACES - 1]) {
@@ -253,9 +253,9 @@ impl World {
         }
     }
 
-    fn own_voice(&self, condition: Condition, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
+    fn kiosk_sound(&self, condition: Condition, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 60.0;
-        let played = own::kiosk(seconds, &self.speech(seconds, random), random);
+        let played = kiosk_sound::kiosk(seconds, &self.speech(seconds, random), random);
         let mut channels = vec![vec![0.0; played.len()]; 1 + usize::from(hearing.stereo)];
         let mut events = Vec::new();
         if let Condition::TalkedOver(_) = condition {
@@ -265,7 +265,7 @@ impl World {
             events = dry.events;
         }
         let loud = random.range(-8.0, 4.0);
-        self.hear_itself(&played, (room, loud), &mut channels, random);
+        self.add_echo(&played, (room, loud), &mut channels, random);
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
         let take = self.finish(condition, index, channels, Kind::Noise, Vec::new(), hearing, random);
         Take { events, played: played.iter().map(|x| *x as f32).collect(), ..take }
@@ -344,7 +344,7 @@ impl Condition {
             Self::Alike => 6,
             Self::Spoken => 8,
             Self::Companions => 10,
-            Self::OwnVoice(room) => 100 + u64::from(room),
+            Self::KioskSound(room) => 100 + u64::from(room),
             Self::TalkedOver(room) => 300 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),
         }
