@@ -229,10 +229,9 @@ mod tests {
         // Ambient noise is the same at both capsules at low frequencies only; from the sixth second on each has its own turbulence.
         let ambient = noise((60.0, 200.0), -58.0, SECONDS, &mut random);
         let mut capsule = || {
-            let (treble, own) =
-                (noise((1000.0, 3000.0), -60.0, SECONDS, &mut random), white(ambient.len(), &mut random));
+            let (high, own) = (noise((1000.0, 3000.0), -60.0, SECONDS, &mut random), white(ambient.len(), &mut random));
             let wind = noise((40.0, 150.0), WIND_DBFS, SECONDS, &mut random);
-            let own = own.iter().zip(&treble).map(|(own, treble)| from_decibels(-105.0) * own + treble);
+            let own = own.iter().zip(&high).map(|(own, high)| from_decibels(-105.0) * own + high);
             let blown = |(i, wind): (usize, &f64)| if i as f64 >= BEGINS_S * f64::from(RATE) { *wind } else { 0.0 };
             let wind = wind.iter().enumerate().map(blown);
             let sum = ambient.iter().zip(own).zip(wind).map(|((ambient, own), wind)| (ambient + own + wind) as f32);

@@ -1,8 +1,8 @@
 //! Echo path from the kiosk's loudspeaker through its room to its microphone, as a real-time convolution.
 //!
 //! The impulse response is that of [`Room`] by image sources. It is applied block by block, as a uniformly partitioned convolution with
-//! overlap-save (Stockham 1966; Gardner, JAES 43, 1995): the response is cut into parts of one block, and each part multiplies the
-//! spectrum of the block that is as many blocks old.
+//! overlap-save (Stockham 1966; Gardner, JAES 43, 1995). The response is cut into parts of one block. Each part multiplies the spectrum
+//! of the block that is as many blocks old.
 
 use std::collections::VecDeque;
 use std::sync::Arc;

@@ -147,8 +147,8 @@ pub struct Report {
     pub volume_db: f64,
     /// Number of visitors.
     pub visitors: usize,
-    /// Visits with a response to any action: a visible change of the exhibit within 0.3 s, at least three times as much motion in the
-    /// second after as in the second before, and no false trigger in the ten seconds before.
+    /// Visits with a response to any action. A response is a visible change of the exhibit within 0.3 s, with at least three times as
+    /// much motion in the second after as in the second before, and no false trigger in the ten seconds before.
     pub headline: VisitShare,
     /// The same for each group.
     pub groups: BTreeMap<&'static str, VisitShare>,

@@ -298,7 +298,7 @@ fn the_kiosk_without_a_display_plays_a_breath_and_names_its_files() {
 fn devices_and_doctor_speak_json() {
     let desk = Desk::new();
     let devices = desk.soffio(&["devices", "--json"]);
-    // A machine without a sound system is a missing driver, told in words.
+    // A computer without a sound system lacks a driver, which is reported.
     if devices.code == Some(3) {
         devices.refused(3, &[]);
     } else {

@@ -14,14 +14,14 @@ const LONGEST_HOLD_S: f64 = 5.0;
 /// Time from the beginning of a scene to the breath, s. Visitors come to rooms that have been loud for long, so the detector's
 /// temporal context must be as full in training.
 const LEAD_IN_S: (f64, f64) = (0.7, 12.0);
-/// A breath that nowhere rises by this much above the noise cannot be heard, dB.
+/// Largest signal-to-noise ratio of a faint breath, which cannot be detected, dB.
 const FAINT_DB: f64 = 3.0;
 
-/// Power of something that one or two capsules hear.
+/// Power of a band of the sound at one or two capsules.
 type Loudness = fn(&[Vec<f64>]) -> f64;
 
 impl Scenario {
-    /// Breath: `mouth` is distance (m), angle (degrees), and whether it is a child's.
+    /// A scene with breaths; `mouth` is distance (m), angle (degrees), and whether it is a child's.
     pub(super) fn blow(
         &self,
         condition: Condition,
@@ -74,7 +74,7 @@ impl Scenario {
                 .collect::<Vec<_>>()
         };
         if let Some(snr) = snr {
-            // The first one sets the noise.
+            // The first breath sets the level of the noise.
             let [air, noise] = [&streams, &channels].map(|heard| loudness(&during(heard, &breaths[0])));
             let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
             channels.iter_mut().flatten().for_each(|x| *x *= gain);
@@ -88,7 +88,7 @@ impl Scenario {
         let mut played = Vec::new();
         if let Condition::Answered(room) = condition {
             played = kiosk_sound::answers(seconds, &breaths, random);
-            // Headphones, a hearing loop or a cable that fell out: the microphone hears little or nothing of it.
+            // With headphones, a hearing loop or a loose cable the microphone receives little or no echo.
             let loud = if random.unit() < 0.25 { random.range(-60.0, -8.0) } else { random.range(-8.0, 4.0) };
             self.add_echo(&played, (room, loud), &mut channels, random);
         }
@@ -98,7 +98,7 @@ impl Scenario {
         Take { events: dry.events, played, ..take }
     }
 
-    /// The first breath of a mouth at a distance (m) and an angle (degrees), a child's or not.
+    /// First breath of a scene, from a distance (m) and an angle (degrees), of a child or an adult.
     fn first_breath(
         &self,
         condition: Condition,
@@ -107,7 +107,7 @@ impl Scenario {
         hearing: Hearing,
         random: &mut Random,
     ) -> BreathShape {
-        // Soft breaths are as frequent as hard ones: they are the harder to hear.
+        // Soft breaths, which are harder to detect, are as frequent as hard ones.
         let (soft, hard) = if child { (3.6_f64, 10.5) } else { (6.0, 17.0) };
         let mut pair = Random::new(hash_words(&[self.seed, condition.number(), index, 3]));
         let (spacing, azimuth_deg) = (pair.range(SPACING_M.0, SPACING_M.1), pair.range(0.0, 360.0));
@@ -126,14 +126,14 @@ impl Scenario {
         }
     }
 
-    /// One breath like `first`, or a few of one mouth: short puffs and long ones, hard and soft; when each of them is.
+    /// One breath like `first`, or several of the same visitor: short and long, hard and soft; with their times.
     fn row_of_breaths(first: &BreathShape, random: &mut Random) -> (Vec<BreathShape>, Vec<Breath>) {
         let count = if random.unit() < 0.6 { 1 } else { 2 + (random.unit() * 2.0) as usize };
         let (mut shapes, mut breaths, mut start) = (Vec::new(), Vec::new(), 0.0);
         for i in 0..count {
             let long = random.unit() < 0.2;
             let shape = BreathShape {
-                // A breath is taken between two.
+                // The visitor breathes in between two breaths.
                 lead_in: if i == 0 { first.lead_in } else { random.range(0.4, 1.2) },
                 strength: (first.strength * if i == 0 { 1.0 } else { random.range(0.7, 1.3) }).clamp(3.6, 17.0),
                 attack: random.range(0.04, 0.22),
@@ -191,7 +191,7 @@ mod tests {
     use soffio_detector::generate::filter::white;
 
     #[test]
-    fn of_what_two_capsules_share_nothing_is_between_them_and_of_eddies_half() {
+    fn the_difference_removes_common_sound_and_keeps_half_of_the_turbulence() {
         const ROUNDING: f64 = 1e-12;
         const HALF: std::ops::Range<f64> = 0.45..0.55;
         let mut random = Random::new(5);
@@ -204,13 +204,13 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_above_the_voices_is_told_from_what_voices_have() {
-        /// What the tones' first samples add.
+    fn the_high_band_excludes_the_band_of_voices() {
+        /// Error from the first samples of the tones.
         const BEGINS_DB: f64 = 0.1;
         let tone =
             |hz: f64| (0..RATE).map(|i| soffio_math::sin(std::f64::consts::TAU * hz * f64::from(i) / R)).collect();
         let [voice, breath]: [Vec<f64>; 2] = [3000.0, 6000.0].map(tone);
-        // A pass of k = e^(−2π 4.4/16) is k |1 − z| / |1 − k z| at z = e^(iω).
+        // A first-order high-pass with k = e^(−2π 4.4/16) has the gain k |1 − z| / |1 − k z| at z = e^(iω).
         let pass = |hz: f64| {
             let (k, c) = (
                 soffio_math::exp(-std::f64::consts::TAU * 4400.0 / R),
@@ -221,19 +221,19 @@ mod tests {
         let apart_db = 10.0 * log10(treble(&breath) / treble(&voice));
         let by_formula = 60.0 * log10(pass(6000.0) / pass(3000.0));
         assert!((apart_db - by_formula).abs() < BEGINS_DB && apart_db > 15.0, "{apart_db}, not {by_formula} dB");
-        // One capsule does not listen there.
+        // One capsule does not use the high band.
         let [one, two] = [1, 2].map(|n| above_noise(&vec![breath.clone(); n], &vec![voice.clone(); n]));
         assert!(two > 15.0 && one < two - 10.0, "{one} dB of one, {two} dB of two");
     }
 
     #[test]
-    fn a_breath_that_only_two_capsules_tell_from_the_crowd_is_not_faint() {
+    fn a_breath_that_shows_in_the_difference_alone_is_not_faint() {
         let (scenario, index) = (Scenario::new(11), 3);
         let take = |snr, stereo| scenario.take(Condition::Between(snr), index, Hearing { gain_db: 0.0, stereo });
         let plain = take(20.0, true);
         assert!(plain.right.is_some() && !plain.breaths[0].faint && plain.breaths[0].snr_db == Some(20.0));
         assert!(take(-20.0, true).breaths[0].faint, "drowned in the difference as well");
-        // The crowd is as loud as the breath's difference allows: more of it where it may come nearer.
+        // The crowd is as loud as the breath's difference allows.
         let crowd = |snr| {
             power(&take(snr, true).left.iter().take(RATE as usize / 2).map(|x| f64::from(*x)).collect::<Vec<_>>())
         };
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn companions_talk_before_and_while_somebody_blows() {
+    fn companions_talk_before_and_during_a_breath() {
         let (scenario, hearing) = (Scenario::new(11), Hearing { gain_db: 0.0, stereo: true });
         for index in 0..8 {
             let take = scenario.take(Condition::Companions, index, hearing);

@@ -51,7 +51,7 @@ const RELEASE_S: f64 = 0.3;
 
 #[test]
 fn a_breath_of_any_strength_makes_wind_that_ends_with_it() {
-    let mut means = Vec::new();
+    let mut mean_speeds = Vec::new();
     for (seed, strength) in [3.8, 6.0, 8.9, 13.3, 17.0].into_iter().enumerate() {
         let shape = BreathShape { strength, ..BreathShape::default() };
         let wind = estimates(&generate::breath(48000, seed as u64, &shape), 48000);
@@ -61,10 +61,13 @@ fn a_breath_of_any_strength_makes_wind_that_ends_with_it() {
         assert!((onset..onset + LATENCY_S).contains(&first), "{strength} m/s from {onset} s: wind at {first} s");
         assert!(last < end + RELEASE_S, "{strength} m/s until {end} s: wind until {last} s");
         let blowing: Vec<f64> = wind.iter().map(|(_, e)| e.speed).filter(|s| *s > 0.0).collect();
-        means.push(blowing.iter().sum::<f64>() / blowing.len() as f64);
+        mean_speeds.push(blowing.iter().sum::<f64>() / blowing.len() as f64);
     }
-    assert!(means.windows(2).all(|pair| pair[0] < pair[1]), "a stronger breath is a stronger wind: {means:?}");
-    assert!(means[0] > 1.0 && means[4] <= 17.0, "speeds of a mouth: {means:?}");
+    assert!(
+        mean_speeds.windows(2).all(|pair| pair[0] < pair[1]),
+        "a stronger breath is a stronger wind: {mean_speeds:?}"
+    );
+    assert!(mean_speeds[0] > 1.0 && mean_speeds[4] <= 17.0, "speeds of a mouth: {mean_speeds:?}");
 }
 
 /// Level of the onset of a shipped breath: the first 5 ms louder than this, RMS of full scale (−45 dB).
