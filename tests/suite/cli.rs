@@ -350,10 +350,10 @@ fn the_shipped_files_are_good() {
 fn a_configuration_is_checked_where_it_stands() {
     let desk = Desk::new();
     desk.write("site.toml", "[breath]\ngian = 2\ndistance_m = 30.0\n");
-    let told = desk.soffio(&["check", "site.toml"]);
-    assert_eq!(told.code, Some(1));
+    let run = desk.soffio(&["check", "site.toml"]);
+    assert_eq!(run.code, Some(1));
     for word in ["site.toml:2:1", "breath.gian", "`gain`", "site.toml:3:14", "30", "2 problems"] {
-        assert!(told.err.contains(word), "{word} is missing: {}", told.err);
+        assert!(run.err.contains(word), "{word} is missing: {}", run.err);
     }
     let json = desk.soffio(&["check", "site.toml", "--json"]);
     let problems: Value = serde_json::from_str(&json.out).expect("JSON");
@@ -364,12 +364,12 @@ fn a_configuration_is_checked_where_it_stands() {
 fn explain_says_where_each_value_comes_from() {
     let desk = Desk::new();
     let run = desk.soffio(&["explain", text(&fish()), "Boom"]);
-    let told = run.done();
+    let output = run.done();
     for words in ["body Boom", "[exhibit.toml:", "[derived: mesh × 7850 kg/m³]", "constraint cup-on-point", "boom-rod"]
     {
-        assert!(told.contains(words), "no \"{words}\" in\n{told}");
+        assert!(output.contains(words), "no \"{words}\" in\n{output}");
     }
-    assert!(!told.contains("body RedPlate"), "{told}");
+    assert!(!output.contains("body RedPlate"), "{output}");
 }
 
 #[test]

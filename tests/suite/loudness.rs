@@ -149,10 +149,10 @@ fn day_becomes_night_and_day_again_without_a_step() {
     synth.set_night(false);
     out.extend(render(&mut synth, 4 * RATE as usize));
     // Loudest of each 10 ms: neighbours differ by the glide of some 10 dB in 2 s and the decay, never by a step.
-    let course: Vec<f64> = out[4_800..].chunks(960).map(peak).collect();
-    let step = course.windows(2).map(|w| decibels(w[1] / w[0]).abs()).fold(0.0, f64::max);
+    let peaks: Vec<f64> = out[4_800..].chunks(960).map(peak).collect();
+    let step = peaks.windows(2).map(|w| decibels(w[1] / w[0]).abs()).fold(0.0, f64::max);
     assert!(step < 0.3, "a step of {step} dB");
-    let (day, night) = (course[50], course[450]);
+    let (day, night) = (peaks[50], peaks[450]);
     assert!(decibels(night / day) < -8.0, "{} dB", decibels(night / day));
 }
 

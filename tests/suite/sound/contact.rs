@@ -315,14 +315,14 @@ fn contacts_sound_the_same_again_and_ask_for_no_memory() {
         let mut simulation = Simulation::new(exhibit, Settings::default());
         // What is asked for once, at the start.
         (0..20).for_each(|_| simulation.step(&StepInput::default()));
-        let mut told = 0;
+        let mut sounds = 0;
         assert_no_alloc(|| {
             for _ in 0..400 {
                 simulation.step(&StepInput::default());
-                told += simulation.sounds().len();
+                sounds += simulation.sounds().len();
             }
         });
-        assert!(told > 400);
+        assert!(sounds > 400);
     }
 }
 
