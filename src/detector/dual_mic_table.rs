@@ -3,7 +3,7 @@
 //! The weights of the high band were added as zeros to the previous table. Five training runs followed, each from the mean of
 //! others, with 12 to 18 scenarios each. Two runs of 14 scenarios continued from the mean of the last three. They included breaths
 //! during companions' talk, and the second one also breaths that rise above the noise only above 4 kHz. A third, like the second,
-//! continued from the mean of both (`--go-on --keep 0 --size 0.1`). Each weight is the mean of these three (Wortsman et al.,
+//! continued from the mean of both (`--resume --keep 0 --size 0.1`). Each weight is the mean of these three (Wortsman et al.,
 //! "Model soups", ICML 2022).
 //!
 //! Before a new table replaces this one, score it (`soffio-training score --table`), and compare false positives and missed

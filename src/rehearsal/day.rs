@@ -10,11 +10,11 @@ const BEGINS_S: f64 = 20.0;
 /// Pause between two visits of a queue, s.
 const QUEUE_S: (f64, f64) = (8.0, 20.0);
 /// Pause between two visits of a quiet afternoon, s.
-const APART_S: (f64, f64) = (20.0, 90.0);
+const QUIET_S: (f64, f64) = (20.0, 90.0);
 /// Time between two staff tasks, s; at most a fifth of the day.
-const DUTY_S: f64 = 1200.0;
+const TASK_INTERVAL_S: f64 = 1200.0;
 /// Time between two changes of the exhibit, s; at most a third of the day.
-const CHANGE_S: f64 = 1500.0;
+const CHANGE_INTERVAL_S: f64 = 1500.0;
 /// Time in which a new exhibit is assembled and comes to rest, s.
 const ASSEMBLY_S: f64 = 12.0;
 /// Time for which the microphone is unplugged, s.
@@ -60,9 +60,9 @@ impl Task {
     }
 }
 
-/// A task over time.
+/// A staff task and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Duty {
+pub struct StaffTask {
     /// The task.
     pub task: Task,
     /// Beginning, s of the day.
@@ -93,15 +93,24 @@ impl Entry {
     }
 }
 
+/// Change to another exhibit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExhibitChange {
+    /// Time, s of the day.
+    pub at: f64,
+    /// Index of the new exhibit.
+    pub exhibit: usize,
+}
+
 /// Programme of a day.
 #[derive(Clone, Debug, Default)]
 pub struct Day {
     /// Visits in order; no two overlap.
     pub entries: Vec<Entry>,
     /// Staff tasks in order.
-    pub duties: Vec<Duty>,
-    /// Times at which another exhibit is chosen, s of the day, and its index.
-    pub changes: Vec<(f64, usize)>,
+    pub staff_tasks: Vec<StaffTask>,
+    /// Changes of the exhibit in order.
+    pub changes: Vec<ExhibitChange>,
     /// Times at which attract mode must be playing, s of the day.
     pub attracts: Vec<f64>,
     /// Length, s.
@@ -114,21 +123,21 @@ impl Day {
         let mut day = Self { length, ..Self::default() };
         let mut random = Random::new(hash_words(&[seed, 0x6461_7973]));
         let random = &mut random;
-        let (duty_s, change_s) = (DUTY_S.min(length / 5.0), CHANGE_S.min(length / 3.0));
-        let (mut next_duty, mut next_change) = (0.6 * duty_s, change_s);
+        let (task_interval, change_interval) = (TASK_INTERVAL_S.min(length / 5.0), CHANGE_INTERVAL_S.min(length / 3.0));
+        let (mut next_task, mut next_change) = (0.6 * task_interval, change_interval);
         let mut tasks = [Task::Mute, Task::Clean, Task::Unplug].into_iter().cycle();
         let (mut now, mut exhibit) = (BEGINS_S, 0);
         loop {
             let mut ready = 0.0;
             if now >= next_change && exhibits > 1 {
-                next_change += change_s;
+                next_change += change_interval;
                 exhibit = (exhibit + 1) % exhibits;
-                day.changes.push((now, exhibit));
+                day.changes.push(ExhibitChange { at: now, exhibit });
                 ready = ASSEMBLY_S;
             }
             let mut after = None;
-            if now >= next_duty {
-                next_duty += duty_s;
+            if now >= next_task {
+                next_task += task_interval;
                 let task = tasks.next().unwrap_or(Task::Mute);
                 let visit = visit_during(task, now, ready, random);
                 let until = match task {
@@ -136,7 +145,7 @@ impl Day {
                     Task::Clean => now + CLEANING_S,
                     Task::Unplug => (now + UNPLUGGED_S).max(visit.leaves),
                 };
-                day.duties.push(Duty { task, from: now, until });
+                day.staff_tasks.push(StaffTask { task, from: now, until });
                 day.enter(visit, exhibit, StaffContext { during: Some(task), after: None }, random);
                 // After a mute the next visitor comes as in a queue; after the other tasks nothing moves any more.
                 let pause = if task == Task::Mute { random.range(QUEUE_S.0, QUEUE_S.1) } else { 0.0 };
@@ -149,7 +158,7 @@ impl Day {
             };
             let (leaves, intent) = (visit.leaves, visit.intent);
             day.enter(visit, exhibit, StaffContext { during: None, after }, random);
-            let (low, high) = if random.unit() < 0.5 { QUEUE_S } else { APART_S };
+            let (low, high) = if random.unit() < 0.5 { QUEUE_S } else { QUIET_S };
             now = leaves + random.range(low, high);
             if intent == Intent::WalksAway
                 && let Some(idle) = idle_s
@@ -161,7 +170,7 @@ impl Day {
             if now > length {
                 // Visits that would end after closing time are left out.
                 day.entries.retain(|entry| entry.visit.leaves < length);
-                day.duties.retain(|duty| duty.until < length);
+                day.staff_tasks.retain(|task| task.until < length);
                 day.attracts.retain(|at| *at < length);
                 return day;
             }

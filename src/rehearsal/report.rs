@@ -6,7 +6,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::breath_snr::BreathSnr;
-use super::scorer::{FPS, SOON, median};
+use super::scorer::{FPS, Response, SOON, median};
 use soffio_soundscape::statistics::wilson;
 
 /// Share of all visits that must get a response.
@@ -187,8 +187,8 @@ pub struct Report {
 }
 
 impl Report {
-    /// Computes all totals and bars. `shuffled` are the contingencies at random moments, and whether they look like a response.
-    pub(super) fn conclude(mut self, shuffled: &[(f64, bool)]) -> Self {
+    /// Computes all totals and bars. `shuffled` are the responses at random moments.
+    pub(super) fn conclude(mut self, shuffled: &[Response]) -> Self {
         self.headline = VisitShare::of(self.visits.iter(), |visit| visit.good);
         self.at_once = VisitShare::of(self.visits.iter(), |visit| visit.at_once);
         self.changed = VisitShare::of(self.visits.iter(), |visit| visit.changed_after_s.is_some());
@@ -205,8 +205,8 @@ impl Report {
             self.groups_at_once.insert(name, VisitShare::of(members(), |visit| visit.at_once));
         }
         self.contingency = median(self.visits.iter().filter_map(|visit| visit.contingency).collect());
-        self.shuffled_contingency = median(shuffled.iter().map(|(contingency, _)| *contingency).collect());
-        let alike = shuffled.iter().filter(|(_, responds)| *responds).count();
+        self.shuffled_contingency = median(shuffled.iter().map(|response| response.contingency).collect());
+        let alike = shuffled.iter().filter(|response| response.is_visible()).count();
         self.shuffled_share = (!shuffled.is_empty()).then(|| alike as f64 / shuffled.len() as f64);
         let mut changed: Vec<f64> = self.visits.iter().filter_map(|visit| visit.changed_after_s).collect();
         changed.sort_by(f64::total_cmp);

@@ -7,7 +7,7 @@ use super::audio_observer::AudioObserver;
 use super::blocks::FRAMES;
 use super::breath_snr::BreathSnr;
 use super::control_run::control_poses;
-use super::day::{Day, Duty, Task};
+use super::day::{Day, StaffTask, Task};
 use super::kiosk_under_test::KioskUnderTest;
 use super::rehearsal::{Rehearsal, RehearsalError, open_venue};
 use super::report::{FalseTrigger, Report, ScoredVisit, StaffCheck, VisitShare};
@@ -85,6 +85,12 @@ struct PendingMoment {
     control: Vec<Vec<Pose>>,
 }
 
+/// A staff task, and whether the kiosk has behaved as required so far.
+struct CheckedTask {
+    task: StaffTask,
+    good: bool,
+}
+
 /// State of the day.
 struct DayRun<'a> {
     rehearsal: &'a Rehearsal,
@@ -100,9 +106,11 @@ struct DayRun<'a> {
     made: usize,
     /// Index of the current entry.
     current: usize,
-    changed: usize,
+    /// Number of changes of the exhibit so far.
+    changes_made: usize,
+    /// Number of checks of attract mode so far, and of those that found it playing.
     attract_checks: usize,
-    returned: usize,
+    attract_returns: usize,
     /// Place in the picture at which a visitor's pull began.
     pull_from: Option<[f64; 2]>,
     pending: Vec<PendingMoment>,
@@ -111,15 +119,23 @@ struct DayRun<'a> {
     attracted: f64,
     /// Last time at which there was wind outside attract mode, s.
     blew: f64,
-    duties: Vec<(Duty, bool)>,
+    staff: Vec<CheckedTask>,
+}
+
+/// First wind after a visitor's action.
+struct Detection {
+    /// Index of the entry.
+    entry: usize,
+    /// Time since the onset, s.
+    after_s: f64,
 }
 
 /// Log of the day, for its report.
 struct Log {
     /// Entries whose onset ended attract mode.
     woke: Vec<usize>,
-    /// Entries whose action made wind, and the time it took, s.
-    detected: Vec<(usize, f64)>,
+    /// First wind of each visit, in order.
+    detected: Vec<Detection>,
     /// Signal-to-noise ratio of each entry's first breath, dB.
     snr_db: Vec<Option<BreathSnr>>,
     /// Reasons of the detector in the second after each entry's onset, and their numbers of steps.
@@ -152,7 +168,7 @@ impl<'a> DayRun<'a> {
         let entries = day.entries.len();
         Ok(Self {
             rehearsal,
-            duties: day.duties.iter().map(|duty| (*duty, true)).collect(),
+            staff: day.staff_tasks.iter().map(|task| CheckedTask { task: *task, good: true }).collect(),
             day,
             venue,
             kiosk,
@@ -163,9 +179,9 @@ impl<'a> DayRun<'a> {
             exhibit: 0,
             made: 0,
             current: 0,
-            changed: 0,
+            changes_made: 0,
             attract_checks: 0,
-            returned: 0,
+            attract_returns: 0,
             pull_from: None,
             pending: Vec::new(),
             log: Log::new(entries),
@@ -187,8 +203,8 @@ impl<'a> DayRun<'a> {
         }
         self.act(now);
         self.try_again(now);
-        let plugged = !self.on_duty(now, Task::Unplug);
-        self.controls.inert = self.on_duty(now, Task::Clean);
+        let plugged = !self.is_in_progress(Task::Unplug, now);
+        self.controls.inert = self.is_in_progress(Task::Clean, now);
         for moment in self.pending.iter_mut().filter(|moment| begins(moment.at, now)) {
             moment.control = control_poses(&self.kiosk.stage, &self.controls, picture_at(moment.at));
         }
@@ -205,8 +221,8 @@ impl<'a> DayRun<'a> {
         self.request_scores((step + 1) * FPS / STEPS_PER_SECOND);
     }
 
-    fn on_duty(&self, now: f64, task: Task) -> bool {
-        self.day.duties.iter().any(|duty| duty.task == task && (duty.from..duty.until).contains(&now))
+    fn is_in_progress(&self, task: Task, now: f64) -> bool {
+        self.day.staff_tasks.iter().any(|staff| staff.task == task && (staff.from..staff.until).contains(&now))
     }
 
     /// Starts due visits, staff tasks and changes of the exhibit.
@@ -229,18 +245,18 @@ impl<'a> DayRun<'a> {
             }
             self.made += 1;
         }
-        if let Some((_, exhibit)) = self.day.changes.get(self.changed).filter(|(at, _)| *at <= now) {
-            self.exhibit = *exhibit;
+        if let Some(change) = self.day.changes.get(self.changes_made).filter(|change| change.at <= now) {
+            self.exhibit = change.exhibit;
             self.kiosk.show(self.rehearsal.exhibits[self.exhibit].clone());
-            self.changed += 1;
+            self.changes_made += 1;
         }
-        let muted = self.on_duty(now, Task::Mute);
+        let muted = self.is_in_progress(Task::Mute, now);
         if muted != self.kiosk.is_muted() {
             self.kiosk.toggle_mute();
         }
         if self.day.attracts.get(self.attract_checks).is_some_and(|at| *at <= now) {
             self.attract_checks += 1;
-            self.returned += usize::from(self.kiosk.stage.attracts());
+            self.attract_returns += usize::from(self.kiosk.stage.attracts());
         }
     }
 
@@ -260,8 +276,8 @@ impl<'a> DayRun<'a> {
         if let Some(breath) = visit.breaths.first().filter(|breath| begins(breath.onset, now)) {
             self.venue.measure_snr(breath.onset);
         }
-        if let Some((_, place)) = visit.aim.filter(|(at, _)| begins(*at, now)) {
-            self.controls.aim = Some(place);
+        if let Some(aim) = visit.aim.filter(|aim| begins(aim.at, now)) {
+            self.controls.aim = Some(aim.point);
             self.controls.activity += 1;
         }
         for (i, pressed) in visit.presses.iter().enumerate().filter(|(_, p)| (p.from..p.until).contains(&now)) {
@@ -302,7 +318,7 @@ impl<'a> DayRun<'a> {
             visit.leaves = visit.leaves.max(breath.end() + PATIENCE_S);
             visit.breaths.push(breath);
         }
-        let begins_now = visit.separate().skip(1).find(|(_, breath)| begins(breath.onset, now));
+        let begins_now = visit.successive_breaths().skip(1).find(|(_, breath)| begins(breath.onset, now));
         if let Some((action, breath)) = begins_now {
             let key = Key { entry: self.current, action: Some(action) };
             self.pending.push(PendingMoment { key, at: breath.onset, control: Vec::new() });
@@ -325,8 +341,8 @@ impl<'a> DayRun<'a> {
         }
         let reason = self.kiosk.stage.snapshot().breath.estimate.reason;
         *self.log.detector[self.current].entry(format!("{reason:?}")).or_default() += 1;
-        if blows && self.log.detected.last().is_none_or(|(entry, _)| *entry != self.current) {
-            self.log.detected.push((self.current, now - onset));
+        if blows && self.log.detected.last().is_none_or(|detection| detection.entry != self.current) {
+            self.log.detected.push(Detection { entry: self.current, after_s: now - onset });
         }
     }
 
@@ -334,9 +350,9 @@ impl<'a> DayRun<'a> {
     fn check_staff(&mut self, now: f64) {
         let speed = self.kiosk.stage.snapshot().breath.speed;
         let attracts = self.kiosk.stage.attracts();
-        for (duty, good) in &mut self.duties {
-            if (duty.from + TAKES_EFFECT_S..duty.until).contains(&now) {
-                *good &= match duty.task {
+        for CheckedTask { task, good } in &mut self.staff {
+            if (task.from + TAKES_EFFECT_S..task.until).contains(&now) {
+                *good &= match task.task {
                     Task::Mute => self.kiosk.played().iter().all(|sample| *sample == 0.0),
                     Task::Clean | Task::Unplug => speed == 0.0 || attracts,
                 };
@@ -348,11 +364,12 @@ impl<'a> DayRun<'a> {
     fn log_wind(&mut self, began: f64) {
         let near = |entry: &&super::day::Entry| entry.visit.arrives < began + 1.0 && began < entry.visit.leaves + 10.0;
         let mut entries = self.day.entries.iter().filter(near).filter(|entry| entry.expects_response());
-        let is_response = entries
-            .any(|entry| entry.visit.acts().any(|(from, until)| from < began + EARLY_S && began < until + AFTERMATH_S));
+        let is_response = entries.any(|entry| {
+            entry.visit.action_times().any(|act| act.start < began + EARLY_S && began < act.end + AFTERMATH_S)
+        });
         let is_attract = began < self.attracted + AFTERMATH_S;
         if !is_response && !is_attract {
-            let (since_s, blew) = (since_last_act(&self.day, began), self.blew > began - EARLY_S);
+            let (since_s, blew) = (since_last_action(&self.day, began), self.blew > began - EARLY_S);
             self.log.false_triggers.push(FalseTrigger { at_s: began, since_s, blew });
         }
     }
@@ -368,11 +385,8 @@ impl<'a> DayRun<'a> {
 
     fn report(self, rehearsal: &Rehearsal) -> Result<Report, RehearsalError> {
         let Observations { responses, drawn } = self.video.finish()?;
-        let shuffled: Vec<_> = responses
-            .iter()
-            .filter_map(|(key, response)| response.filter(|_| key.action.is_none()))
-            .map(|response| (response.contingency, response.is_visible()))
-            .collect();
+        let shuffled: Vec<Response> =
+            responses.iter().filter_map(|(key, response)| response.filter(|_| key.action.is_none())).collect();
         let firsts = responses.iter().filter(|(key, _)| key.action == Some(0));
         let scored = firsts.filter_map(|(Key { entry: index, .. }, response)| {
             let entry = &self.day.entries[*index];
@@ -391,11 +405,11 @@ impl<'a> DayRun<'a> {
             let after = |picture: usize| (middle + picture as f64) / FPS as f64 - onset;
             let scored = ScoredVisit {
                 onset_s: onset,
-                since_s: since_last_act(&self.day, onset),
+                since_s: since_last_action(&self.day, onset),
                 exhibit: rehearsal.exhibits[entry.exhibit].id.clone(),
                 snr_db: self.log.snr_db[*index],
                 detector: most_frequent(&self.log.detector[*index]),
-                detected_after_s: self.log.detected.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
+                detected_after_s: self.log.detected.iter().find(|d| d.entry == *index).map(|d| d.after_s),
                 changed_after_s: response.and_then(|r| r.changed).map(after),
                 seen_after_s: response.and_then(|r| r.seen).map(after),
                 energy: response.map(|response| response.energy),
@@ -409,9 +423,9 @@ impl<'a> DayRun<'a> {
             };
             Some(ScoredVisit { missed: scored.miss(), ..scored })
         });
-        let staff = self.duties.iter().map(|(duty, good)| StaffCheck {
-            task: duty.task.name(),
-            from_s: duty.from,
+        let staff = self.staff.iter().map(|CheckedTask { task, good }| StaffCheck {
+            task: task.task.name(),
+            from_s: task.from,
             good: *good,
         });
         Ok(Report {
@@ -434,7 +448,7 @@ impl<'a> DayRun<'a> {
             shuffled_share: None,
             changed_after_s: None,
             staff: staff.collect(),
-            attract_returned: (self.returned, self.attract_checks),
+            attract_returned: (self.attract_returns, self.attract_checks),
             pictures: drawn,
             bars: Vec::new(),
             failures: Vec::new(),
@@ -446,9 +460,9 @@ impl<'a> DayRun<'a> {
 }
 
 /// Time since the last action of any visitor before `at`, s; `None` before the first.
-fn since_last_act(day: &Day, at: f64) -> Option<f64> {
-    let acts = day.entries.iter().flat_map(|entry| entry.visit.acts());
-    let last = acts.map(|(_, until)| until).filter(|until| *until < at).fold(f64::NEG_INFINITY, f64::max);
+fn since_last_action(day: &Day, at: f64) -> Option<f64> {
+    let actions = day.entries.iter().flat_map(|entry| entry.visit.action_times());
+    let last = actions.map(|action| action.end).filter(|end| *end < at).fold(f64::NEG_INFINITY, f64::max);
     last.is_finite().then_some(at - last)
 }
 

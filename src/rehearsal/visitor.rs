@@ -3,6 +3,8 @@
 //! Distances, angles and strengths are those of people in front of a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s, an
 //! adult 6 to 17 m/s, soft as often as hard. Most blow at the microphone, some off its axis.
 
+use std::ops::Range;
+
 use super::loudness::{loud, scaled};
 use soffio_detector::generate::filter::peaked;
 use soffio_detector::generate::{self, BreathShape};
@@ -43,9 +45,9 @@ const LAUGHTER_DB: (f64, f64) = (70.0, 88.0);
 const STEPS_DB: (f64, f64) = (45.0, 65.0);
 
 /// Pause between two breaths of a visitor, s.
-const APART_S: (f64, f64) = (1.5, 4.0);
+const BREATH_PAUSE_S: (f64, f64) = (1.5, 4.0);
 /// Number of breaths after which a visitor who sees no response gives up.
-const GIVES_UP: usize = 3;
+const MAX_BREATHS: usize = 3;
 
 /// Intent of a visitor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +69,7 @@ pub enum Intent {
 }
 
 /// Probability of each intent.
-const OFTEN: [(Intent, f64); 7] = [
+const INTENT_PROBABILITY: [(Intent, f64); 7] = [
     (Intent::Blows, 0.40),
     (Intent::InAGroup, 0.13),
     (Intent::Shouts, 0.11),
@@ -164,6 +166,15 @@ pub struct TimedPress {
     pub press: Press,
 }
 
+/// Pointing at the exhibit.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim {
+    /// Time, s of the day.
+    pub at: f64,
+    /// Point in picture coordinates.
+    pub point: [f64; 2],
+}
+
 /// One visit.
 #[derive(Clone, Debug)]
 pub struct Visit {
@@ -175,9 +186,8 @@ pub struct Visit {
     pub arrives: f64,
     /// Departure, s of the day.
     pub leaves: f64,
-    /// Time, s of the day, and place, picture coordinates, of the visitor's pointing; `None` for most, who touch nothing before they
-    /// blow.
-    pub aim: Option<(f64, [f64; 2])>,
+    /// Where the visitor points before the first breath; `None` for most, who touch nothing before they blow.
+    pub aim: Option<Aim>,
     /// Breaths in order.
     pub breaths: Vec<Breath>,
     /// Presses in order.
@@ -188,8 +198,8 @@ impl Visit {
     /// A visit that begins at a time, s of the day, with the first action at least `ready` seconds later; its intent is random.
     pub fn new(arrives: f64, ready: f64, random: &mut Random) -> Self {
         let mut left = random.unit();
-        let intent = OFTEN.iter().find(|(_, often)| {
-            left -= often;
+        let intent = INTENT_PROBABILITY.iter().find(|(_, probability)| {
+            left -= probability;
             left < 0.0
         });
         Self::of(intent.map_or(Intent::Blows, |(intent, _)| *intent), arrives, ready, random)
@@ -200,7 +210,7 @@ impl Visit {
         let child = random.unit() < 0.4;
         let place = |random: &mut Random| [random.range(0.3, 0.7), random.range(0.25, 0.6)];
         let first = arrives + ready + random.range(2.0, 7.0);
-        let aim = (random.unit() < 0.4).then(|| (first - random.range(0.8, 2.0), place(random)));
+        let aim = (random.unit() < 0.4).then(|| Aim { at: first - random.range(0.8, 2.0), point: place(random) });
         let (mut breaths, mut presses) = (Vec::new(), Vec::new());
         let mut end = first;
         match intent {
@@ -218,12 +228,14 @@ impl Visit {
                 breaths.push(breath);
                 end = breath.end();
                 if intent == Intent::TwoAtOnce {
-                    let other = Breath::new(first + random.range(0.0, 0.6), random.unit() < 0.4, random);
+                    let onset = first + random.range(0.0, 0.6);
+                    let other_child = random.unit() < 0.4;
+                    let other = Breath::new(onset, other_child, random);
                     breaths.push(other);
                     end = end.max(other.end());
                 }
                 for _ in 0..[0, 0, 0, 1, 1, 2][(random.unit() * 6.0) as usize] {
-                    let next = breath.again(end + random.range(APART_S.0, APART_S.1), random);
+                    let next = breath.again(end + random.range(BREATH_PAUSE_S.0, BREATH_PAUSE_S.1), random);
                     end = next.end();
                     breaths.push(next);
                 }
@@ -254,27 +266,27 @@ impl Visit {
     /// Next breath of a visitor who has blown and sees no response, from the same place. `None` for one who gives up, or touches the
     /// screen instead.
     pub fn retry(&self) -> Option<Breath> {
-        let tries = self.breaths.len() < GIVES_UP && self.intent != Intent::ThenTouches;
+        let tries = self.breaths.len() < MAX_BREATHS && self.intent != Intent::ThenTouches;
         let first = self.breaths.first().filter(|_| tries)?;
         let mut random = Random::new(hash_words(&[self.seed, 0x7472_6965, self.breaths.len() as u64]));
-        let onset = self.last_breath_end()? + random.range(APART_S.0, APART_S.1);
+        let onset = self.last_breath_end()? + random.range(BREATH_PAUSE_S.0, BREATH_PAUSE_S.1);
         Some(first.again(onset, &mut random))
     }
 
     /// Breaths that begin after the end of all earlier ones, with their indices.
-    pub fn separate(&self) -> impl Iterator<Item = (usize, &Breath)> {
+    pub fn successive_breaths(&self) -> impl Iterator<Item = (usize, &Breath)> {
         let mut end = f64::NEG_INFINITY;
         self.breaths.iter().enumerate().filter(move |(_, breath)| {
-            let separate = breath.onset > end;
+            let is_later = breath.onset > end;
             end = end.max(breath.end());
-            separate
+            is_later
         })
     }
 
-    /// Beginning and end of each action, s of the day.
-    pub fn acts(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let breaths = self.breaths.iter().map(|breath| (breath.onset, breath.end()));
-        breaths.chain(self.presses.iter().map(|pressed| (pressed.from, pressed.until)))
+    /// Times of each action, s of the day.
+    pub fn action_times(&self) -> impl Iterator<Item = Range<f64>> + '_ {
+        let breaths = self.breaths.iter().map(|breath| breath.onset..breath.end());
+        breaths.chain(self.presses.iter().map(|pressed| pressed.from..pressed.until))
     }
 
     /// Groups of the visitor, for the report.

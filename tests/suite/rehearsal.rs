@@ -118,7 +118,7 @@ fn a_day_is_the_same_for_its_seed_and_has_every_group_in_it() {
     assert!(groups.values().all(|visits| *visits >= ENOUGH), "a group is too small to be judged: {groups:?}");
     assert_eq!(groups.len(), 17);
     for task in [Task::Mute, Task::Clean, Task::Unplug] {
-        assert!(day.duties.iter().filter(|duty| duty.task == task).count() >= 3, "{task:?}");
+        assert!(day.staff_tasks.iter().filter(|staff| staff.task == task).count() >= 3, "{task:?}");
         assert!(
             day.entries.iter().filter(|entry| entry.after == Some(task)).count() >= 3,
             "a visit right after {task:?}"
@@ -135,7 +135,7 @@ fn a_short_day_has_staff_tasks_and_several_exhibits_too() {
     for seed in 1..20 {
         let day = Day::new(seed, 720.0, 3, Some(60.0));
         assert!(day.entries.len() >= 6, "seed {seed}: {}", day.entries.len());
-        assert!(day.duties.len() >= 3 && !day.changes.is_empty(), "seed {seed}: {day:?}");
+        assert!(day.staff_tasks.len() >= 3 && !day.changes.is_empty(), "seed {seed}: {day:?}");
         assert!(day.entries.iter().all(|entry| entry.visit.leaves < 720.0), "seed {seed}");
     }
 }
@@ -158,10 +158,13 @@ fn a_visitor_who_sees_no_response_blows_again_from_the_same_place_and_gives_up()
             assert_eq!(visit.retry().map(|breath| breath.onset), Some(next.onset), "the same the second time");
             visit.breaths.push(next);
         }
-        assert_eq!((visit.breaths.len(), visit.separate().count()), (BREATHS, BREATHS), "seed {seed}");
+        assert_eq!((visit.breaths.len(), visit.successive_breaths().count()), (BREATHS, BREATHS), "seed {seed}");
         // Two breaths at once are one action. Visitors who then touch do not try again, and visitors who hold do not blow.
         let two = Visit::of(Intent::TwoAtOnce, 100.0, 0.0, &mut Random::new(seed));
-        assert!(two.breaths[1].onset < two.breaths[0].end() && two.separate().all(|(i, _)| i != 1), "seed {seed}");
+        assert!(
+            two.breaths[1].onset < two.breaths[0].end() && two.successive_breaths().all(|(i, _)| i != 1),
+            "seed {seed}"
+        );
         for intent in [Intent::ThenTouches, Intent::Holds, Intent::WalksAway] {
             assert!(Visit::of(intent, 100.0, 0.0, &mut Random::new(seed)).retry().is_none(), "seed {seed}");
         }
