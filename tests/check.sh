@@ -1,23 +1,21 @@
 #!/usr/bin/env bash
-# Runs the parts of ./check and says how long each took. Packages are ./check's business. What each part said is in out/check.
-# All build with the profile `ci`, the whole workspace at once, so that every dependency has the same features for each part.
-# Every crate is looked at by clippy and rustdoc when it is compiled (tests/compile.sh): `build` and `suite` are the lints and
-# the documents too.
+# Runs the parts of ./check and prints the time of each. ./check itself installs the packages. The output of each part is in out/check.
+# All parts build the whole workspace with the profile `ci`, so that every dependency has the same features in each of them.
+# tests/compile.sh runs clippy and rustdoc on every crate that is compiled, so `build` and `suite` include lints and documents.
 set -euo pipefail
 self=$(readlink -f "$0")
 cd "$(dirname "$self")/.."
-built="${CARGO_TARGET_DIR:-target}/ci"
-# Where the parts leave what they said, and how they ended.
-marks=out/check
+# Folder for the output and the exit code of each part.
+results=out/check
 everything=(format headless build exhibits suite live)
 
 compiled() { local verb=$1; shift; RUSTC_WORKSPACE_WRAPPER=$PWD/tests/compile.sh cargo "$verb" --profile ci --workspace --locked "$@"; }
 format()   { cargo fmt --all -- --check; }
-# Without the kiosk: the two packages that have it as a feature.
+# Without the kiosk: the two packages in which it is a feature.
 headless() { cargo clippy --profile ci -p soffio -p soffio-offline --locked --quiet --all-targets --no-default-features -- -D warnings; }
-# The program, and what looks for a recording: all that the parts need that are no tests.
+# The program and the example `correlate`: everything that the parts need except tests.
 build()    { compiled build "$@" --bins --example correlate; }
-# The same for a part that is run alone.
+# The same for a part that runs alone.
 program()  { [ -n "${SOFFIO_BUILT:-}" ] || build --quiet; }
 suite()    { compiled test --quiet; }
 exhibits() { program && "$built/soffio" check exhibits kiosk-config/kiosk.toml; }
@@ -28,7 +26,7 @@ deb()      { tests/package.sh; }
 lints()    { cargo clippy --profile ci --workspace --locked --quiet --all-targets -- -D warnings; }
 docs()     { RUSTDOCFLAGS="-D warnings" cargo doc --profile ci --workspace --locked --quiet --no-deps --document-private-items; }
 
-# One test of a suite that is too long for every day; it must be there.
+# One test of the suite that is too long for every day; it must exist.
 ignored() {
     compiled test --quiet --test suite -- --ignored --exact --nocapture "$1" |
         tee /dev/stderr | grep '^test result: ok. 1 passed' >/dev/null
@@ -40,13 +38,13 @@ ignored_of_exhibits() {
         tee /dev/stderr | grep '^test result: ok. [1-9]' >/dev/null
 }
 
-# The suite's own program.
+# Path of the suite's program.
 suite_binary() {
     compiled test --no-run --test suite --message-format=json 2>/dev/null |
         sed -n 's/.*"package_id":"[^"]*soffio@.*"executable":"\([^"]*suite-[^"]*\)".*/\1/p' | tail -1
 }
 
-# One bar of the rehearsed day, as its report has it: tells it, and fails where it is not met.
+# One bar of the rehearsed day: prints it from the report, and fails where it is not met.
 rehearsed() {
     local bar
     bar=$(grep -o "{\"bar\":\"$1\"[^}]*}" out/long/rehearse.json) || bar="no report has the bar \"$1\""
@@ -54,14 +52,14 @@ rehearsed() {
     [[ $bar == *'"met":true'* ]]
 }
 
-# Longer runs than a change needs: each leaves its mark in out/long and is not run again until the sources change.
+# Runs that are too long for every change. Each leaves a stamp in out/long and is not repeated until the sources change.
 long() {
     local stamp part missed=() released="${CARGO_TARGET_DIR:-target}/release/soffio"
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
     for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands places million-hits clock-hour half-day beats schemas turning-gears visits plates blown cabinet wind steps contrast flashes minutes rehearse \
-        answered first groups shuffled nobody staff attract fuzz; do
+        answered first groups shuffled false_triggers staff attract fuzz; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
             continue
@@ -71,10 +69,10 @@ long() {
             soak-blow)  "$released" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
             soak-still) "$released" play steel-fish --seconds 7200 ;;
             visits)     ignored wind::visits::what_moves_is_the_visitors_doing_in_two_hundred_visits ;;
-            # Every shipped work and language, on whatever Vulkan driver there is.
+            # Every shipped exhibit and language, on any Vulkan driver.
             contrast)   compiled test --quiet --test suite kiosk::contrast -- --include-ignored --nocapture ;;
             flashes)    compiled test --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
-            # An hour in all; where the fuzzer is not installed it says so.
+            # An hour in all; it reports a missing fuzzer.
             fuzz)       tests/fuzz/run.sh ;;
             hands)      ignored_of_exhibits ::grabs_cause_no_fault_in_twenty_seconds ;;
             places)     ignored_of_exhibits ::position_based_motion_of_twenty_seconds_does_not_fault ;;
@@ -98,12 +96,11 @@ long() {
             schemas)    cargo test --manifest-path tests/schemas/Cargo.toml --target-dir "${CARGO_TARGET_DIR:-target}/schemas" --release --locked --quiet ;;
             turning-gears) ignored motion::gears::gears_keep_their_phase_over_a_hundred_thousand_turns ;;
             half-day)      ignored clock::in_half_a_day_it_strikes_seventy_eight_blows ;;
-            # Rehearsed minutes: the same the second time, and a crowd that is to be answered nothing.
+            # Rehearsed minutes: equal reports of two runs, and a crowd that must cause no response.
             minutes)    compiled test --quiet --test suite rehearsal:: -- --ignored --nocapture ;;
-            # An eight-hour gallery day; its exit code says whether all its bars are met. Each of them is a part of its own, so
-            # that one that is missed hides none.
+            # A gallery day of eight hours. Each of its bars is a part of its own, so that a missed one hides no other.
             rehearse)   "$released" rehearse --hours 8 --json >out/long/rehearse.json || [ -s out/long/rehearse.json ] ;;
-            answered | first | groups | shuffled | nobody | staff | attract)
+            answered | first | groups | shuffled | false_triggers | staff | attract)
                         rehearsed "$part" || { missed+=("$part"); continue; } ;;
             clock-hour)    ignored escapement::an_anchor_keeps_a_pendulum_going_for_an_hour ;;
         esac
@@ -117,14 +114,14 @@ long() {
 
 # ---- one part after another ----------------------------------------------------------------------------------------------------
 
-# Runs a part as a process of its own, so that its first failing command ends it, and notes how it ended and how long it took.
+# Runs a part as a process of its own, so that its first failing command ends it, and writes down its exit code and its time.
 run_part() {
     local began=$SECONDS code=0
     "$self" --alone "$1" || code=$?
-    echo "$code $((SECONDS - began))" >"$marks/$1"
+    echo "$code $((SECONDS - began))" >"$results/$1"
 }
 
-# What a part has counted of what it was asked to show: "PASSED FAILED". One that counts nothing is one thing itself.
+# Numbers of passed and failed tests of a part: "PASSED FAILED". A part without such counts is one test.
 counted() { # counted PART EXIT-CODE
     awk -v code="$2" '
         /^test result: / { for (i = 2; i <= NF; i++) { if ($i ~ /^passed/) good += $(i - 1); if ($i ~ /^failed/) bad += $(i - 1) } }
@@ -134,22 +131,22 @@ counted() { # counted PART EXIT-CODE
             if (code != 0 && !bad) bad = 1
             if (code == 0 && !good) good = 1
             print good + 0, bad + 0
-        }' "$marks/$1.log"
+        }' "$results/$1.log"
 }
 
-tell_end() { # tell_end PART: of one that has ended
+print_result() { # print_result PART
     local code time
-    read -r code time <"$marks/$1"
+    read -r code time <"$results/$1"
     [ "$code" = 0 ] && echo "== $1: good, $time s" || echo "== $1: FAILED, $time s"
 }
 
-# The times of all parts, and the sum of what they have counted.
+# Times of all parts, and the sums of their tests.
 table() {
     local part code time passed failed good=0 bad=0
     echo
     for part in "$@"; do
-        [ -f "$marks/$part" ] || { printf '%-10s      -    not run\n' "$part"; bad=$((bad + 1)); continue; }
-        read -r code time <"$marks/$part"
+        [ -f "$results/$part" ] || { printf '%-10s      -    not run\n' "$part"; bad=$((bad + 1)); continue; }
+        read -r code time <"$results/$part"
         read -r passed failed < <(counted "$part" "$code")
         good=$((good + passed)) bad=$((bad + failed))
         printf '%-10s %6d s  %5d passed, %d failed\n' "$part" "$time" "$passed" "$failed"
@@ -161,15 +158,15 @@ table() {
 
 run() {
     local part
-    rm -rf "$marks"
-    mkdir -p "$marks"
+    rm -rf "$results"
+    mkdir -p "$results"
     for part in "$@"; do
         echo "== $part"
-        run_part "$part" 2>&1 | tee "$marks/$part.log"
-        tell_end "$part"
+        run_part "$part" 2>&1 | tee "$results/$part.log"
+        print_result "$part"
         if [ "$part" = build ]; then
-            # Without the program there is nothing to run.
-            [ "$(cut -d' ' -f1 "$marks/build")" = 0 ] || break
+            # Without the program no other part can run.
+            [ "$(cut -d' ' -f1 "$results/build")" = 0 ] || break
             export SOFFIO_BUILT=1
         fi
     done
@@ -182,7 +179,7 @@ case ${1:-} in
     "")      run "${everything[@]}" ;;
     *)
         for part in "$@"; do
-            [[ " ${everything[*]} lints docs deb long " == *" $part "* ]] || { echo "check: no part is called $part: ${everything[*]} lints docs deb, or --long" >&2; exit 2; }
+            [[ " ${everything[*]} lints docs deb long " == *" $part "* ]] || { echo "check: there is no part \"$part\"; the parts are ${everything[*]} lints docs deb, or --long" >&2; exit 2; }
         done
         run "$@"
         ;;

@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
-# Stands where cargo calls rustc for the crates of this workspace (RUSTC_WORKSPACE_WRAPPER, set by tests/check.sh): compiles a
-# crate, then lets clippy look at it and rustdoc at what it says of itself. A warning of either is an error.
+# A wrapper around rustc for the crates of this workspace (RUSTC_WORKSPACE_WRAPPER, set by tests/check.sh). It compiles a crate, then
+# runs clippy and rustdoc on it. A warning of either is an error.
 #
-# `cargo clippy` and `cargo doc` find the same. But they read all packages of others once more, for which they take three times as
-# long as for our own crates; here the crates that rustc has just been given are at hand.
+# `cargo clippy` and `cargo doc` find the same, but they read all dependencies again, which takes three times as long as our own
+# crates do. Here the dependencies are already compiled.
 #
 #   tests/compile.sh RUSTC ARGUMENTS …
 set -euo pipefail
 rustc=$1
 shift
 "$rustc" "$@"
-# What writes nothing compiles nothing: cargo asks what the compiler can do.
+# A call without output compiles nothing: cargo queries the compiler.
 [[ " $* " == *" --out-dir "* ]] || exit 0
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-# Of the arguments, those that say what the crate is, and those that say how code is made of it. Cargo takes a finished file that
-# is told to it for one of rustc's.
+# Split the arguments into those that describe the crate and those for code generation. Messages about artifacts are left out, since
+# cargo would take them for rustc's own.
 is=() made=() library=
 while [ $# -gt 0 ]; do
     case $1 in

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The Debian package: made, installed into an empty root, used there, updated with a changed configuration, removed, purged.
-# Nothing of this machine is changed.
-#   tests/package.sh [PACKAGE.deb]     without one it is made, by cargo-deb
+# Lifecycle test of the Debian package in an empty root directory: build, install, run, upgrade with a changed configuration,
+# remove, purge. The host system is not changed.
+#   tests/package.sh [PACKAGE.deb]     without an argument, cargo-deb builds the package
 set -euo pipefail
 root=$(readlink -f "$(dirname "$(readlink -f "$0")")/..")
 cd "$root"
@@ -14,12 +14,12 @@ fail() {
 
 package=${1:-}
 if [ -z "$package" ]; then
-    # Into a folder of its own: whoever has cargo-deb already keeps it.
+    # Installed under the target directory, so that an existing cargo-deb is left alone.
     tools=${CARGO_TARGET_DIR:-target}/tools
     command -v cargo-deb >/dev/null || [ -x "$tools/bin/cargo-deb" ] || cargo install --locked --quiet --root "$tools" cargo-deb
     PATH=$PATH:$tools/bin
     cargo build --release --locked --quiet
-    # The licences of all that is linked into the program, where Cargo.toml takes them from.
+    # The licences of all linked crates, written where Cargo.toml expects them.
     python3 kiosk-config/debian/notices.py --output out/package/THIRD-PARTY
     python3 kiosk-config/debian/notices.py --debian-copyright --output out/package/copyright
     cargo-deb deb --no-build --output "$work/soffio.deb" >/dev/null
@@ -27,7 +27,7 @@ if [ -z "$package" ]; then
 fi
 echo "package: $(dpkg-deb -f "$package" Package Version Architecture | xargs), $(($(stat -c %s "$package") / 1024)) KiB"
 
-# An empty root with a package database; dependencies are another test's affair.
+# An empty root with a package database. Dependencies are not checked here.
 scratch=$work/root
 mkdir -p "$scratch/var/lib/dpkg/updates" "$scratch/var/lib/dpkg/info"
 touch "$scratch/var/lib/dpkg/status"
@@ -44,16 +44,16 @@ for file in usr/bin/soffio usr/lib/soffio/launch usr/lib/systemd/system/soffio.s
     usr/share/doc/soffio/README.md usr/share/doc/soffio/weston.ini usr/share/doc/soffio/copyright usr/share/doc/soffio/THIRD-PARTY; do
     [ -f "$scratch/$file" ] || fail "$file is not installed"
 done
-[ -z "$(cd "$scratch" && find usr etc -type f -perm /022)" ] || fail "files that others may write"
+[ -z "$(cd "$scratch" && find usr etc -type f -perm /022)" ] || fail "files writable by group or others"
 soffio=$scratch/usr/bin/soffio
-# Symbols are for whoever builds it.
+# A released program has no symbols.
 sections=$(readelf --section-headers --wide "$soffio")
 [[ $sections != *.symtab* && $sections != *.debug_info* ]] || fail "the program is not stripped"
 grep -q '^Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/' "$scratch/usr/share/doc/soffio/copyright" ||
-    fail "its copyright file is not the one that notices.py has written"
+    fail "its copyright file is not the one written by notices.py"
 cmp "$scratch/etc/soffio/kiosk.toml" kiosk-config/kiosk.toml || fail "the installed configuration is not the shipped one"
 
-# systemd understands the unit. The compositor that it begins with is another package's, so something else stands there.
+# systemd accepts the unit. The compositor in ExecStart belongs to another package, so /bin/true replaces it.
 if command -v systemd-analyze >/dev/null; then
     sed 's#^ExecStart=/usr/bin/cage #ExecStart=/bin/true #' "$scratch/usr/lib/systemd/system/soffio.service" >"$work/soffio.service"
     if ! systemd-analyze verify "$work/soffio.service" 2>"$work/verify" || [ -s "$work/verify" ]; then
@@ -66,7 +66,7 @@ else
     echo "package: the unit is not verified: no systemd-analyze here" >&2
 fi
 
-# The installed program finds its exhibits and its configuration from anywhere.
+# The installed program finds its exhibits and its configuration from any working directory.
 mkdir "$work/elsewhere"
 cd "$work/elsewhere"
 "$soffio" check "$scratch"/usr/share/soffio/exhibits/* "$scratch/etc/soffio/kiosk.toml" 2>"$work/check" || { tail -20 "$work/check"; fail "an installed exhibit"; }
@@ -77,10 +77,10 @@ grep -q 'exhibit terry-clock: valid' "$work/doctor" || fail "doctor does not fin
 "$scratch/usr/lib/soffio/launch" "$soffio" kiosk --help >/dev/null || fail "the launcher does not start the program"
 cd "$root"
 
-# An update keeps what the house has changed; its removal keeps it too, a purge does not.
-echo '# of the house' >>"$scratch/etc/soffio/kiosk.toml"
+# An upgrade and a removal keep the configuration that the site has changed; a purge deletes it.
+echo '# site setting' >>"$scratch/etc/soffio/kiosk.toml"
 package_manager --install "$package"
-grep -q '^# of the house' "$scratch/etc/soffio/kiosk.toml" || fail "an update has overwritten the configuration"
+grep -q '^# site setting' "$scratch/etc/soffio/kiosk.toml" || fail "an upgrade has overwritten the configuration"
 mkdir -p "$scratch/var/lib/soffio/exhibits/own"
 touch "$scratch/var/lib/soffio/state.json"
 package_manager --remove soffio
@@ -89,5 +89,5 @@ package_manager --purge soffio
 if [ ! -d "$scratch/var/lib/soffio/exhibits/own" ] || [ -e "$scratch/var/lib/soffio/state.json" ]; then fail "purge and /var/lib/soffio"; fi
 rm -r "$scratch/var"/lib/soffio
 everything >"$work/after"
-diff "$work/before" "$work/after" || fail "something is left"
-echo "package: good  installed, used, updated, removed and purged: nothing is left"
+diff "$work/before" "$work/after" || fail "files are left after the purge"
+echo "package: good  installed, used, upgraded, removed and purged: no file is left"

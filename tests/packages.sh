@@ -1,12 +1,11 @@
 # shellcheck shell=bash
-# Shared by ./kiosk and ./check: finds which system packages are missing, says why they are wanted, installs them; looks
-# whether disk and memory are enough.
-# Sourced, not run.
+# System requirements, sourced by ./kiosk and ./check: finds missing packages, prints what each is for, installs them, and
+# checks free disk space and memory.
 
 missing=()
 wanted=()
-# Package:witness of all that was asked for.
-asked_for=()
+# All requested packages, as package:file (the file or command that shows that the package is installed).
+requested=()
 
 say() { printf 'soffio: %s\n' "$*" >&2; }
 
@@ -22,8 +21,8 @@ need_rust() {
     fi
 }
 
-# Is any of these files there? (A pattern that matches nothing stays as it is.)
-any() {
+# Succeeds if one of the files exists. A pattern without a match is passed on unexpanded.
+any_file() {
     local file
     for file in "$@"; do
         [ -e "$file" ] && return 0
@@ -31,31 +30,31 @@ any() {
     return 1
 }
 
-# Is a command, header, shared library, Vulkan driver or font there?
+# Succeeds if a command, header, shared library, Vulkan driver or font is installed.
 present() {
     case "$1" in
         *.h) [ -e "/usr/include/$1" ] ;;
-        # Not grep -q: it would end ldconfig early, which pipefail takes for a failure.
+        # Not grep -q: it closes the pipe early, and pipefail then reports ldconfig as failed.
         *.so.*) { ldconfig -p || /sbin/ldconfig -p; } 2>/dev/null | grep -F "$1" >/dev/null ;;
-        lvp_icd) any /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json ;;
-        DejaVu*) any /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf /usr/share/fonts/truetype/noto/NotoSansArabic* ;;
-        Nanum*) any /usr/share/fonts/truetype/nanum/*.ttf /usr/share/fonts/opentype/noto/*CJK* ;;
-        # Servers lie where only root looks.
+        lvp_icd) any_file /usr/share/vulkan/icd.d/*.json /etc/vulkan/icd.d/*.json ;;
+        DejaVu*) any_file /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf /usr/share/fonts/truetype/noto/NotoSansArabic* ;;
+        Nanum*) any_file /usr/share/fonts/truetype/nanum/*.ttf /usr/share/fonts/opentype/noto/*CJK* ;;
+        # Servers are installed in sbin, which is not in a user's PATH.
         *) PATH=$PATH:/usr/sbin:/sbin command -v "$1" >/dev/null 2>&1 ;;
     esac
 }
 
-# need "why" package:witness …: what the kiosk does not run without.
-need() { look missing "$@"; }
+# need "why" package:file …: required packages.
+need() { find_missing missing "$@"; }
 
-# want "why" package:witness …: what it runs without, but not as well. One of these that cannot be had keeps no other away.
-want() { look wanted "$@"; }
+# want "why" package:file …: optional packages. Each is installed alone, so that one failure does not prevent the others.
+want() { find_missing wanted "$@"; }
 
-look() {
+find_missing() {
     local -n list=$1
     local why=$2 pair
     shift 2
-    asked_for+=("$@")
+    requested+=("$@")
     for pair in "$@"; do
         if ! present "${pair#*:}"; then
             local package=${pair%%:*}
@@ -94,33 +93,33 @@ install_all() {
     rm -f "$log"
 }
 
-# Ends the script where something that was asked for could not be had.
-all_there() {
+# Ends the script if a requested package is still missing.
+require_all() {
     local pair absent=()
-    for pair in "${asked_for[@]}"; do
+    for pair in "${requested[@]}"; do
         present "${pair#*:}" || absent+=("${pair%%:*}")
     done
     [ ${#absent[@]} -eq 0 ] && return 0
-    say "still missing: ${absent[*]}. Without them a part of the check would prove nothing: install them, then run this again."
+    say "still missing: ${absent[*]}. Some checks need them: install them, then run this again."
     exit 3
 }
 
-# Ends the script where disk or memory are not enough: enough FOLDER MB-OF-DISK MB-OF-MEMORY "for what".
-enough() {
-    local folder=$1 disk=$2 memory=$3 what=$4 free short=
-    # What is not there yet comes into the folder above it.
+# require_space FOLDER DISK_MB MEMORY_MB "task": ends the script if free disk space or memory is too small for the task.
+require_space() {
+    local folder=$1 disk=$2 memory=$3 task=$4 free short=
+    # A folder that does not exist yet will be created in its nearest existing parent.
     while [ ! -d "$folder" ]; do folder=$(dirname "$folder"); done
     free=$(df -Pm "$folder" | awk 'NR == 2 { print $4 }')
     if [ "${free:-$disk}" -lt "$disk" ]; then
-        say "$what needs about $disk MB of disk, and $(readlink -f "$folder") has $free MB free. Make room, or set CARGO_TARGET_DIR to a folder on another disk."
+        say "$task needs about $disk MB of disk, and $(readlink -f "$folder") has $free MB free. Make room, or set CARGO_TARGET_DIR to a folder on another disk."
         short=1
     fi
-    # Swap counts: it is slow, but it works.
+    # Free swap counts as memory: a build with swap is slow, but succeeds.
     free=$(awk '/^(MemAvailable|SwapFree):/ { kb += $2 } END { if (NR) print int(kb / 1024) }' /proc/meminfo 2>/dev/null || true)
     if [ "${free:-$memory}" -lt "$memory" ]; then
-        say "$what needs about $memory MB of memory, and $free MB are available. End other programs, or add swap."
+        say "$task needs about $memory MB of memory, and $free MB are available. Close other programs, or add swap."
         short=1
     fi
     [ -n "$short" ] || return 0
-    [ -n "${SOFFIO_ANYWAY:-}" ] || { say "SOFFIO_ANYWAY=1 goes on all the same."; exit 3; }
+    [ -n "${SOFFIO_ANYWAY:-}" ] || { say "Set SOFFIO_ANYWAY=1 to continue anyway."; exit 3; }
 }

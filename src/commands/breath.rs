@@ -1,6 +1,6 @@
-//! `soffio breath`: the blow detector alone, over recordings.
+//! `soffio breath`: runs the blow detector alone over recordings.
 //!
-//! Per file one JSON line; with `--csv` a row per 1/240 s, the simulation's step, of one file.
+//! It prints one JSON line per file, or with `--csv` one row per step of the simulation (1/240 s) of a single file.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -24,27 +24,27 @@ pub struct Args {
     /// Rows `t,speed,confidence` at 240 Hz instead of a summary; one file.
     #[arg(long)]
     csv: bool,
-    /// With --csv: a fourth column, why the detector decided as it did.
+    /// With --csv: a fourth column with the reason of the decision.
     #[arg(long, requires = "csv")]
     reasons: bool,
 }
 
-/// What the detector made of one recording.
+/// Summary of one recording.
 #[derive(Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// The recording, as it was named.
+    /// Path of the recording, as given.
     pub file: String,
-    /// Did anybody blow?
+    /// A breath was detected.
     pub blow: bool,
-    /// When the first breath was decided, s.
+    /// Time of the first detection, s.
     pub onset_s: Option<f64>,
-    /// Highest source speed, m/s.
+    /// Highest speed at the lips, m/s.
     pub peak: f64,
-    /// Mean source speed while blowing, m/s.
+    /// Mean speed at the lips during breaths, m/s.
     pub mean: f64,
     /// Time with wind, s.
     pub seconds_blowing: f64,
-    /// Separate breaths.
+    /// Number of separate breaths.
     pub triggers: usize,
 }
 
@@ -69,7 +69,7 @@ pub fn run(args: Args) -> Outcome {
                     writeln!(out, "{line}")
                 };
                 match written {
-                    // Whoever reads the pipe has had enough (`| head`): not an error.
+                    // A closed pipe (`| head`) is not an error.
                     Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => return Ok(()),
                     other => other.map_err(|error| Failure::input(format!("cannot write the output: {error}")))?,
                 }
@@ -79,7 +79,7 @@ pub fn run(args: Args) -> Outcome {
     if problems.is_empty() { Ok(()) } else { Err(Failure::input(problems.join("\nsoffio: "))) }
 }
 
-/// The detector's estimate at the end of every step of 1/240 s, and at the end of the recording.
+/// Time, s, and estimate at the end of every step of 1/240 s, and at the end of the recording.
 pub fn steps(recording: &Recording) -> Vec<(f64, BlowEstimate)> {
     let mut detector = BlowDetector::new(recording.sample_rate);
     let mut feed = WavFeed::from(recording);
@@ -91,7 +91,7 @@ pub fn steps(recording: &Recording) -> Vec<(f64, BlowEstimate)> {
     rows
 }
 
-/// Sums up the steps of one recording.
+/// Summary of the steps of one recording.
 pub fn summarise(file: String, steps: &[(f64, BlowEstimate)]) -> Summary {
     let blowing = || steps.iter().filter(|(_, e)| e.speed > 0.0);
     let count = blowing().count();
@@ -120,7 +120,7 @@ fn write_rows(out: &mut impl Write, steps: &[(f64, BlowEstimate)], reasons: bool
     Ok(())
 }
 
-/// A reason in a word.
+/// Name of a reason.
 fn word(reason: Reason) -> &'static str {
     match reason {
         Reason::NoSignal => "no-signal",
@@ -129,10 +129,10 @@ fn word(reason: Reason) -> &'static str {
         Reason::Voiced => "voiced",
         Reason::MidBand => "mid-band",
         Reason::Impulse => "impulse",
-        Reason::Waiting => "waiting",
+        Reason::Pending => "pending",
         Reason::Blow => "blow",
-        Reason::Latched => "latched",
-        Reason::OwnVoice => "own-voice",
+        Reason::TimedOut => "timed-out",
+        Reason::LoudspeakerEcho => "loudspeaker-echo",
         Reason::Fault => "fault",
     }
 }

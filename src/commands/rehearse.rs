@@ -1,4 +1,4 @@
-//! `soffio rehearse`.
+//! `soffio rehearse`: a rehearsal of a gallery day, with a report.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,41 +10,47 @@ use soffio_config::Config;
 use soffio_detector::BlowSettings;
 use soffio_kiosk::venue::site::Site;
 use soffio_offline::wav;
-use soffio_rehearsal::{Crowd, ROOMS, Rehearsal, RehearsalError, featured_exhibits, listen, recorded, run as rehearse};
+use soffio_rehearsal::{
+    Crowd, ROOMS, Rehearsal, RehearsalError, featured_exhibits, recorded, run as rehearse, run_detector,
+};
 
 /// Longest day, h.
 const LONGEST_H: f64 = 24.0;
 
-/// Rehearses a gallery day: hundreds of made visitors, a crowd, staff, and the kiosk that hears itself; judged by what is
-/// seen and heard of it.
+/// Rehearses a gallery day with hundreds of synthetic visitors, a crowd, staff and the kiosk's own echo, and scores the kiosk's
+/// pictures and sound.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
 Example: soffio rehearse --hours 8 --room hall
          soffio rehearse --hours 0.5 --seed 7 --crowd our-gallery/recordings --json
-         soffio rehearse --ear --capsules 1
+         soffio rehearse --detector-only --capsules 1
 
-Visits count as answered when a blow, or a hold, visibly changes the work within 0.3 s, three times as much moves in the second
-after it as in the second before, and the kiosk has answered nobody in the ten seconds before. 95 % of all visits and 85 %
-of every group are asked for, and not one answer to nobody all day; otherwise the exit code is 1.")]
+A visit is answered when a blow, or a hold, visibly changes the exhibit within 0.3 s, with at least three times as much motion in
+the second after it as in the second before, and no false trigger in the ten seconds before. At least 95 % of all visits
+and 85 % of every group must be answered, without a false trigger all day; otherwise the exit code is 1.")]
 pub struct Args {
     /// Length of the day.
     #[arg(long, value_name = "H", default_value_t = 8.0, value_parser = parse_hours, allow_negative_numbers = true)]
     hours: f64,
-    /// Another day: other visitors, other sounds.
+    /// Seed of visitors and sounds.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// The room: cabinet, gallery or hall.
     #[arg(long, value_name = "NAME", default_value = "gallery", value_parser = clap::builder::PossibleValuesParser::new(ROOMS.map(|(name, ..)| name)))]
     room: String,
-    /// Capsules of the microphone: two are what the manual advises.
+    /// Capsules of the microphone; the manual advises two.
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=2))]
     capsules: u8,
-    /// A folder of WAVs, recordings of your own crowd, in the place of made ones; microphone's level, nobody blowing.
+    /// A folder of WAVs of your own crowd instead of a synthetic one, at the microphone's level and without breaths.
     #[arg(long, value_name = "WAV-DIR")]
     crowd: Option<PathBuf>,
-    /// Only its ear: no work, no sound, no pictures. In a few minutes: who is heard, how soon, and wind without breath.
+    /// Run the detector alone, without exhibits, sound or pictures. Reports detected and missed breaths, latency and false triggers
+    /// in a few minutes.
     #[arg(long)]
-    ear: bool,
+    detector_only: bool,
+    /// Old name of --detector-only.
+    #[arg(long = "ear", hide = true)]
+    old_detector_only: bool,
     /// One JSON object instead of the table.
     #[arg(long)]
     json: bool,
@@ -52,7 +58,8 @@ pub struct Args {
 
 fn parse_hours(text: &str) -> Result<f64, String> {
     let hours = text.parse::<f64>().ok().filter(|h| (0.05..=LONGEST_H).contains(h));
-    hours.ok_or_else(|| format!("\"{text}\" is no length of a day; write hours from 0.05 to {LONGEST_H}, as in 0.5"))
+    hours
+        .ok_or_else(|| format!("\"{text}\" is not a length of a day; give hours from 0.05 to {LONGEST_H}, such as 0.5"))
 }
 
 /// Runs the command.
@@ -60,7 +67,7 @@ pub fn run(args: Args) -> Outcome {
     let (config, _) = Config::load(None).map_err(Failure::input)?;
     let crowd = args.crowd.as_deref().map_or(Ok(Crowd::Made), recordings)?;
     let rehearsal = Rehearsal {
-        works: featured_exhibits(&config).map_err(Failure::input)?,
+        exhibits: featured_exhibits(&config).map_err(Failure::input)?,
         site: Site::new(&config, args.seed),
         room: args.room,
         capsules: args.capsules.into(),
@@ -68,9 +75,12 @@ pub fn run(args: Args) -> Outcome {
         hours: args.hours,
         seed: args.seed,
     };
-    if args.ear {
-        let heard = listen(rehearsal, &BlowSettings::default()).map_err(failure)?;
-        return say(&heard, args.json);
+    if args.old_detector_only {
+        eprintln!("soffio: --ear is now called --detector-only; the old name will be removed");
+    }
+    if args.detector_only || args.old_detector_only {
+        let report = run_detector(rehearsal, &BlowSettings::default()).map_err(failure)?;
+        return print_report(&report, args.json);
     }
     let stop = Arc::new(AtomicBool::new(false));
     stop_on_ctrl_c(&stop);
@@ -78,11 +88,11 @@ pub fn run(args: Args) -> Outcome {
     let report = rehearse(rehearsal, &stop, |second| progress.set_position(second));
     progress.finish_and_clear();
     let report = report.map_err(failure)?;
-    say(&report, args.json)?;
+    print_report(&report, args.json)?;
     if report.failures.is_empty() {
         Ok(())
     } else {
-        // The report has said which.
+        // The report names the missed bars.
         Err(Failure { code: 1, message: String::new() })
     }
 }
@@ -95,8 +105,8 @@ fn failure(error: RehearsalError) -> Failure {
     }
 }
 
-/// One JSON object, or the table.
-fn say(report: &(impl serde::Serialize + std::fmt::Display), json: bool) -> Outcome {
+/// Prints one JSON object, or the table.
+fn print_report(report: &(impl serde::Serialize + std::fmt::Display), json: bool) -> Outcome {
     if json {
         println!("{}", serde_json::to_string(report).map_err(Failure::input)?);
     } else {
@@ -107,9 +117,9 @@ fn say(report: &(impl serde::Serialize + std::fmt::Display), json: bool) -> Outc
 
 /// All WAVs of a folder, in the order of their names.
 fn recordings(folder: &Path) -> Result<Crowd, Failure> {
-    let unread = |error: std::io::Error| Failure::input(format!("{}: {error}; check the path", folder.display()));
-    let entries = std::fs::read_dir(folder).map_err(unread)?;
-    let mut files = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(unread)?;
+    let unreadable = |error: std::io::Error| Failure::input(format!("{}: {error}; check the path", folder.display()));
+    let entries = std::fs::read_dir(folder).map_err(unreadable)?;
+    let mut files = entries.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(unreadable)?;
     files.retain(|file| file.extension().is_some_and(|e| e.eq_ignore_ascii_case("wav")));
     files.sort();
     let takes = files.iter().map(wav::read).collect::<Result<Vec<_>, _>>().map_err(Failure::input)?;

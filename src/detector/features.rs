@@ -1,40 +1,41 @@
-//! What tells a breath from a room: forty numbers per frame, none of which knows the microphone's gain, and the means of
-//! each over the last tenth and the last half of a second.
+//! Feature extraction: forty gain-independent features per frame of 8 ms, and their moving averages over 0.1 and 0.5 s.
 //!
-//! The room is a power spectrum that follows the microphone slowly and stands still while somebody blows. What rises
-//! above it (the *excess*, power subtraction after Boll 1979) is judged by shape, by its last quarter of a second, and by
-//! what the seconds before were like: a bump among bumps is less of a breath than the same in a quiet room. A
-//! breath at a capsule is noise below 200 Hz that falls by 12 dB an octave; beside the stream it is the hiss above 400 Hz
-//! alone. It has no pitch, it swells within a tenth of a second, goes on, and its rumble and its hiss waver each for
-//! itself. Knocks jump and die; voices have harmonics; wheels and trains bring the room with them.
+//! Each bin has a noise floor, a slow average of the microphone's power that is frozen during a breath. The *excess* is the
+//! power above it (spectral subtraction, Boll 1979). Features describe the excess by its shape, by its trend over the last
+//! quarter of a second, and by the seconds before: one burst among many is less likely a breath than one in a quiet room.
 //!
-//! Symbols: S_k smoothed power of bin k, F_k room, O_k the kiosk's own, E_k = max(S_k − 1.5 F_k − O_k, 0) excess, over the
-//! bands 31–94, 94–203, 203–406, 406–812, 812–1625, 1625–3400 Hz. *Low* are the first two, *middle* the last three.
+//! A breath at a capsule is noise below 200 Hz that falls by 12 dB an octave; an off-axis breath is only the hiss above 400 Hz.
+//! Breath has no pitch, swells within a tenth of a second and lasts, and its rumble and its hiss vary independently. Knocks jump
+//! and decay, voices have harmonics, and wheels and trains raise the noise floor as they approach.
+//!
+//! Symbols: S_k smoothed power of bin k, F_k noise floor, O_k echo of the kiosk's loudspeaker, E_k = max(S_k − 1.5 F_k − O_k, 0)
+//! excess. The bands are 31–94, 94–203, 203–406, 406–812, 812–1625 and 1625–3400 Hz. *Low* is the first two, *middle* the last
+//! three.
 
-use super::bands::{BANDS, NOTHING};
-pub use super::bands::{EDGES, LOW, MIDDLE, QUIETEST_DIFFERENCE, blend, decibels};
-pub(super) use super::bands::{QUIETEST, RISEN_DB};
-use super::means::{self, Means, TOLD};
-use super::past::{Past, Present};
-use super::room::Weight;
+use super::bands::{BANDS, EPSILON};
+pub use super::bands::{EDGES, LOW, MIDDLE, MIN_DIFFERENCE_FLOOR, blend, power_to_db};
+pub(super) use super::bands::{MIN_FLOOR, RISEN_DB};
+use super::moving_averages::{self, MovingAverages, OUTPUTS_PER_INPUT};
+use super::noise_floor::FloorWeights;
 use super::spectrum::{BINS, FRAME_S, Power, TRANSFORM, band};
+use super::temporal_context::{ContextInput, TemporalContext};
 use soffio_math::{PI, cos, exp, ln, log10};
 
-/// What is measured in each frame.
+/// Features that are computed from each frame.
 pub const MEASURED: usize = 40;
-/// Number of features: what is measured, and its means.
-pub const COUNT: usize = MEASURED * TOLD;
+/// Number of features: those of the frame and their moving averages.
+pub const COUNT: usize = MEASURED * OUTPUTS_PER_INPUT;
 
-/// Names of what is measured, in order.
+/// Names of the frame's features, in order.
 pub const NAMES: [&str; MEASURED] = [
-    "rise of 31–94 Hz over the room, 10 dB",
+    "rise of 31–94 Hz over the noise floor, 10 dB",
     "rise of 94–203 Hz",
     "rise of 203–406 Hz",
     "rise of 406–812 Hz",
     "rise of 812–1625 Hz",
     "rise of 1625–3400 Hz",
-    "rise of low less twice the room's unrest there, 10 dB",
-    "rise of middle less twice the room's unrest there, 10 dB",
+    "rise of low less twice its floor variance, 10 dB",
+    "rise of middle less twice its floor variance, 10 dB",
     "excess of 31–94 Hz over 94–203 Hz, 10 dB",
     "excess of 94–203 Hz over 203–406 Hz",
     "excess of 203–406 Hz over 406–812 Hz",
@@ -59,27 +60,27 @@ pub const NAMES: [&str; MEASURED] = [
     "change of the middle's shape from frame to frame, 10 dB",
     "steepest step of low in 0.1 s, 10 dB",
     "steepest step of middle in 0.1 s",
-    "part of the last 4 s in which low had risen",
-    "part of the last 4 s in which middle had risen",
-    "low over its own peak of the seconds before, 10 dB",
-    "middle over its own peak of the seconds before",
+    "activity of low in the last 4 s",
+    "activity of middle in the last 4 s",
+    "ratio of low to its own peak, 10 dB",
+    "ratio of middle to its own peak",
     "highest periodicity of the last second",
-    "likeness of low's bins to those of 48 ms ago",
-    "peakedness of the treble over 40 ms",
-    "peakedness of the treble over 0.16 s",
+    "spectral correlation of low with 48 ms ago",
+    "kurtosis of the treble over 40 ms",
+    "kurtosis of the treble over 0.16 s",
 ];
 
-/// What a feature is, in words.
+/// Name of a feature.
 pub fn name(feature: usize) -> String {
-    means::name(&NAMES, feature)
+    moving_averages::name(&NAMES, feature)
 }
 
-/// One frame's features: what is measured in the order of [`NAMES`], then its means, the shorter one first.
+/// Features of one frame: those of [`NAMES`], then their averages over 0.1 s, then those over 0.5 s.
 pub type Features = [f64; COUNT];
 
 /// Index of the periodicity over 80 ms.
 pub const PERIODICITY: usize = 15;
-/// Index of the falls of low and middle.
+/// Indices of the falls of the low and middle bands.
 pub const FALL: [usize; 2] = [22, 23];
 
 /// Bins whose flatness shows a tone, 406–1625 Hz.
@@ -90,89 +91,93 @@ const HARMONICS: (usize, usize) = (6, 64);
 const PITCH_LAGS: (usize, usize) = (20, 100);
 /// Smoothing of the powers, s: longer would make a pop look like a breath.
 const SMOOTHING_S: f64 = 0.008;
-/// Below the room by more than this, it is the room that has become quieter, dB.
-const SUNK_DB: f64 = -6.0;
-/// Unrest of a steady noise, dB: what its frames scatter by.
-const CALM_DB: f64 = 2.0;
-/// Part of the predicted own sound that may remain after it is taken away.
+/// From this far below the noise floor, the ambient noise itself has become quieter, dB.
+const DROP_DB: f64 = -6.0;
+/// Floor variance of steady noise, dB: the scatter of single frames.
+const STEADY_VARIANCE_DB: f64 = 2.0;
+/// Part of the predicted echo that may remain after subtraction.
 pub(super) const RESIDUE: f64 = 0.03;
-/// The room, and what rises above it.
+
+/// Feature extractor of one spectrum.
 #[derive(Clone, Debug)]
-pub(super) struct Listener {
-    /// What it never takes the room to be quieter than, power: below the middle, and there.
-    quietest: [f64; 2],
+pub(super) struct FeatureExtractor {
+    /// Smallest noise floor of a band, power: below the middle band, and in it.
+    min_floor: [f64; 2],
     smooth: Power,
-    room: Power,
-    /// How much low and middle waver about the room, dB.
-    unrest_db: [f64; 2],
+    noise_floor: Power,
+    /// Mean absolute deviation of the low and middle bands from the noise floor, dB.
+    floor_variance_db: [f64; 2],
     frames: u64,
-    /// Frames from which the room was learnt.
+    /// Frames that have entered the noise floor.
     learnt: u64,
-    /// Excess, and the same over 80 ms: shows a steady tone that single frames hide.
+    /// Excess power.
     excess: Power,
+    /// Excess over 80 ms: shows a steady tone that single frames hide.
     slow: Power,
     periodicity: f64,
     low_share: f64,
-    /// Middle bands of the last frame against each other, dB, and how much they change.
+    /// Ratios of neighbouring middle bands in the last frame, dB.
     shape: [f64; 2],
+    /// Mean change of these ratios (spectral flux), dB.
     flux: f64,
+    /// Time for which a band has been above the noise floor, s.
     risen_for: f64,
-    /// Over 40 ms and over 0.16 s.
-    peakedness: [f64; 2],
-    past: Past,
-    means: Means<MEASURED>,
+    /// Kurtosis over 40 ms and over 0.16 s.
+    kurtosis: [f64; 2],
+    context: TemporalContext,
+    averages: MovingAverages<MEASURED>,
     cosine: Vec<f64>,
 }
 
-/// What stands still, so that a breath is not learnt as what it is told from.
+/// Adaptations that are frozen, so that a breath does not become part of its own reference.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Still {
-    /// The room, while there may be a breath or the kiosk drowns it.
-    pub room: bool,
-    /// What came before, while somebody blows.
-    pub past: bool,
+pub(super) struct Freeze {
+    /// Freeze the noise floor, while a breath is likely or the loudspeaker masks it.
+    pub noise_floor: bool,
+    /// Freeze the temporal context, during a breath.
+    pub context: bool,
 }
 
 /// Levels that the decision needs beside the features.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Levels {
-    /// Rise of low over the room, dB.
+    /// Rise of the low band over the noise floor, dB.
     pub rise_db: f64,
-    /// Rise of the middle over the room, dB.
+    /// Rise of the middle band over the noise floor, dB.
     pub middle_rise_db: f64,
-    /// Low and middle together, without the kiosk's own, dB of full scale.
+    /// Level of the low and middle bands without the echo, dB of full scale.
     pub loud_dbfs: f64,
-    /// Excess of low, dB of full scale.
+    /// Excess of the low band, dB of full scale.
     pub excess_dbfs: f64,
-    /// Excess of the middle, dB of full scale.
+    /// Excess of the middle band, dB of full scale.
     pub hiss_dbfs: f64,
-    /// The same and some of the room there, so that it is never nothing.
+    /// Excess of the middle band plus 3 % of its noise floor, dB of full scale: finite in silence.
     pub middle_dbfs: f64,
-    /// Rise of what lies above 4 kHz, dB, where two capsules listen.
-    pub upper_rise_db: f64,
-    /// Room's low, dB of full scale.
+    /// Rise of the high band (4.4–7 kHz) over its noise floor, dB; 0 with one capsule.
+    pub high_band_rise_db: f64,
+    /// Noise floor of the low band, dB of full scale.
     pub floor_dbfs: f64,
-    /// The kiosk's own sound covers the low band.
-    pub covered: bool,
-    /// What is heard of 1625–3400 Hz, dB of full scale: it shows what a gain control does.
-    pub treble_dbfs: f64,
+    /// The loudspeaker's echo masks the low band.
+    pub masked: bool,
+    /// Level of 1625–3400 Hz, dB of full scale; shows the action of a gain control.
+    pub agc_band_dbfs: f64,
 }
 
 impl Levels {
-    /// How far what has risen most has risen, dB.
-    pub fn most_db(&self) -> f64 {
-        self.rise_db.max(self.middle_rise_db).max(self.upper_rise_db)
+    /// Largest rise of any band, dB.
+    pub fn max_rise_db(&self) -> f64 {
+        self.rise_db.max(self.middle_rise_db).max(self.high_band_rise_db)
     }
 }
 
-impl Listener {
-    /// A listener that knows no room yet, and takes none to be quieter in a band below the middle than this, power.
-    pub fn new(quietest: f64) -> Self {
+impl FeatureExtractor {
+    /// An extractor without a noise floor yet; `min_floor` is the smallest one of a band below the middle, power.
+    pub fn new(min_floor: f64) -> Self {
         Self {
-            quietest: [quietest, QUIETEST],
+            min_floor: [min_floor, MIN_FLOOR],
             smooth: [0.0; BINS],
-            room: [0.0; BINS],
-            unrest_db: [CALM_DB; 2],
+            noise_floor: [0.0; BINS],
+            floor_variance_db: [STEADY_VARIANCE_DB; 2],
             frames: 0,
             learnt: 0,
             excess: [0.0; BINS],
@@ -182,107 +187,107 @@ impl Listener {
             shape: [0.0; 2],
             flux: 0.0,
             risen_for: 0.0,
-            peakedness: [0.0; 2],
-            past: Past::new(),
-            means: Means::new(),
+            kurtosis: [0.0; 2],
+            context: TemporalContext::new(),
+            averages: MovingAverages::new(),
             cosine: (0..TRANSFORM).map(|i| cos(2.0 * PI * i as f64 / TRANSFORM as f64)).collect(),
         }
     }
 
-    /// Time it has listened, s.
+    /// Time since the first frame, s.
     pub fn age(&self) -> f64 {
         self.frames as f64 * FRAME_S
     }
 
-    /// Hears one frame and its `peakedness`, of which `own` is explained by the kiosk itself.
-    pub fn push(&mut self, power: &Power, own: &Power, peakedness: f64, still: Still) -> (Features, Levels) {
-        for (mean, over) in self.peakedness.iter_mut().zip([0.04, 0.16]) {
-            *mean += blend(over) * (peakedness - *mean);
+    /// Takes one frame: its power, the echo in it and its kurtosis.
+    pub fn push(&mut self, power: &Power, echo: &Power, kurtosis: f64, freeze: Freeze) -> (Features, Levels) {
+        for (mean, over) in self.kurtosis.iter_mut().zip([0.04, 0.16]) {
+            *mean += blend(over) * (kurtosis - *mean);
         }
         self.frames += 1;
         let quick = if self.frames == 1 { 1.0 } else { blend(SMOOTHING_S) };
         for (s, p) in self.smooth.iter_mut().zip(power) {
             *s += quick * (p - *s);
         }
-        // Of a room that is not known yet, whatever it sounds like is learnt.
-        if !still.room || self.is_new() {
-            self.learn_room();
+        // At first the noise floor learns any sound.
+        if !freeze.noise_floor || self.is_new() {
+            self.update_noise_floor();
         }
-        for (((e, s), f), own) in self.excess.iter_mut().zip(&self.smooth).zip(&self.room).zip(own) {
-            *e = (s - 1.5 * f - own).max(0.0);
+        for (((e, s), f), echo) in self.excess.iter_mut().zip(&self.smooth).zip(&self.noise_floor).zip(echo) {
+            *e = (s - 1.5 * f - echo).max(0.0);
         }
         for (slow, e) in self.slow.iter_mut().zip(&self.excess) {
             *slow += blend(0.08) * (e - *slow);
         }
-        let (measured, levels) = self.measure(own, still);
-        if !still.room {
-            for (unrest, rise) in self.unrest_db.iter_mut().zip([levels.rise_db, levels.middle_rise_db]) {
-                // A room that has become quieter is another room: its old unrest is forgotten.
-                let now = if rise > SUNK_DB { rise.abs() } else { CALM_DB };
-                *unrest += blend(2.0) * (now - *unrest).min(6.0);
+        let (measured, levels) = self.measure(echo, freeze);
+        if !freeze.noise_floor {
+            for (variance, rise) in self.floor_variance_db.iter_mut().zip([levels.rise_db, levels.middle_rise_db]) {
+                // A quieter ambient noise is another one: its old variance is discarded.
+                let now = if rise > DROP_DB { rise.abs() } else { STEADY_VARIANCE_DB };
+                *variance += blend(2.0) * (now - *variance).min(6.0);
             }
         }
         let mut features = [0.0; COUNT];
-        self.means.push(&measured, &mut features);
+        self.averages.push(&measured, &mut features);
         (features, levels)
     }
 
-    /// Has it heard the room for less than a third of a second?
+    /// True until the noise floor has learnt from 0.3 s.
     fn is_new(&self) -> bool {
         self.learnt as f64 * FRAME_S < 0.3
     }
 
-    fn learn_room(&mut self) {
+    fn update_noise_floor(&mut self) {
         self.learnt += 1;
         let (mean, new) = (1.0 / self.learnt as f64, self.is_new());
-        let known = Weight::known();
-        let weight = Weight { down: known.down.max(mean), ..known };
-        let quietest = |bin: usize| self.quietest[usize::from(bin >= MIDDLE.0)];
-        for (bin, (f, s)) in self.room.iter_mut().zip(&self.smooth).enumerate() {
-            // The first third of a second counts in full.
+        let known = FloorWeights::steady();
+        let weight = FloorWeights { down: known.down.max(mean), ..known };
+        let min_floor = |bin: usize| self.min_floor[usize::from(bin >= MIDDLE.0)];
+        for (bin, (f, s)) in self.noise_floor.iter_mut().zip(&self.smooth).enumerate() {
+            // The first 0.3 s form a plain mean.
             if new {
                 *f += mean * (s - *f);
             } else {
-                weight.learn(f, *s, quietest(bin));
+                weight.update(f, *s, min_floor(bin));
             }
         }
     }
 
-    fn measure(&mut self, own: &Power, still: Still) -> ([f64; MEASURED], Levels) {
-        // Of what the kiosk itself explains, the prediction's own error remains: a little of it is taken as floor.
-        let quietest = |from: usize| self.quietest[usize::from(from >= MIDDLE.0)];
-        let floor = |from, to| RESIDUE * band(own, from, to) + band(&self.room, from, to) + quietest(from);
+    fn measure(&mut self, echo: &Power, freeze: Freeze) -> ([f64; MEASURED], Levels) {
+        // The prediction of the echo has an error: a little of it counts as floor.
+        let min_floor = |from: usize| self.min_floor[usize::from(from >= MIDDLE.0)];
+        let floor = |from, to| RESIDUE * band(echo, from, to) + band(&self.noise_floor, from, to) + min_floor(from);
         let cleaned = |from: usize, to: usize| {
-            let bins = self.smooth[from..to].iter().zip(&own[from..to]);
-            bins.map(|(s, own)| (s - own).max(0.0)).sum::<f64>() + quietest(from)
+            let bins = self.smooth[from..to].iter().zip(&echo[from..to]);
+            bins.map(|(s, echo)| (s - echo).max(0.0)).sum::<f64>() + min_floor(from)
         };
-        let rise = |(from, to)| decibels(cleaned(from, to) / floor(from, to)).clamp(-5.0, 50.0);
+        let rise = |(from, to)| power_to_db(cleaned(from, to) / floor(from, to)).clamp(-5.0, 50.0);
         let excess = |(from, to)| band(&self.excess, from, to) + 0.03 * floor(from, to);
         let bands: [(usize, usize); BANDS] = std::array::from_fn(|b| (EDGES[b], EDGES[b + 1]));
         let (rises, parts) = (bands.map(rise), bands.map(excess));
         let (low_rise, middle_rise) = (rise(LOW), rise(MIDDLE));
         let total: f64 = parts.iter().sum();
-        let share = decibels((parts[0] + parts[1]) / total);
-        let level = [decibels(cleaned(LOW.0, LOW.1)), decibels(cleaned(MIDDLE.0, MIDDLE.1))];
+        let share = power_to_db((parts[0] + parts[1]) / total);
+        let level = [power_to_db(cleaned(LOW.0, LOW.1)), power_to_db(cleaned(MIDDLE.0, MIDDLE.1))];
         let levels = Levels {
             rise_db: low_rise,
             middle_rise_db: middle_rise,
-            loud_dbfs: decibels(cleaned(LOW.0, LOW.1) + cleaned(MIDDLE.0, MIDDLE.1)),
-            excess_dbfs: decibels(band(&self.excess, LOW.0, LOW.1)),
-            hiss_dbfs: decibels(band(&self.excess, MIDDLE.0, MIDDLE.1)),
-            middle_dbfs: decibels(parts[3] + parts[4] + parts[5]),
-            floor_dbfs: decibels(band(&self.room, LOW.0, LOW.1) + quietest(LOW.0)),
-            treble_dbfs: decibels(band(&self.smooth, EDGES[5], EDGES[6])),
+            loud_dbfs: power_to_db(cleaned(LOW.0, LOW.1) + cleaned(MIDDLE.0, MIDDLE.1)),
+            excess_dbfs: power_to_db(band(&self.excess, LOW.0, LOW.1)),
+            hiss_dbfs: power_to_db(band(&self.excess, MIDDLE.0, MIDDLE.1)),
+            middle_dbfs: power_to_db(parts[3] + parts[4] + parts[5]),
+            floor_dbfs: power_to_db(band(&self.noise_floor, LOW.0, LOW.1) + min_floor(LOW.0)),
+            agc_band_dbfs: power_to_db(band(&self.smooth, EDGES[5], EDGES[6])),
             ..Levels::default()
         };
 
         let periodicity = self.periodicity();
-        let shape = [decibels(parts[3] / parts[4]), decibels(parts[4] / parts[5])];
-        self.follow(periodicity, share, shape, low_rise.max(middle_rise));
+        let shape = [power_to_db(parts[3] / parts[4]), power_to_db(parts[4] / parts[5])];
+        self.update_averages(periodicity, share, shape, low_rise.max(middle_rise));
         let present =
-            Present { level, rises: [low_rise, middle_rise], periodicity: self.periodicity, power: &self.smooth };
-        let past = self.past.push(&present, still.past);
-        let [low, middle] = past.trends;
+            ContextInput { level, rises: [low_rise, middle_rise], periodicity: self.periodicity, power: &self.smooth };
+        let context = self.context.push(&present, freeze.context);
+        let [low, middle] = context.trends;
         let measured = [
             rises[0],
             rises[1],
@@ -290,11 +295,11 @@ impl Listener {
             rises[3],
             rises[4],
             rises[5],
-            low_rise - 2.0 * self.unrest_db[0],
-            middle_rise - 2.0 * self.unrest_db[1],
-            decibels(parts[0] / parts[1]),
-            decibels(parts[1] / parts[2]),
-            decibels(parts[2] / parts[3]),
+            low_rise - 2.0 * self.floor_variance_db[0],
+            middle_rise - 2.0 * self.floor_variance_db[1],
+            power_to_db(parts[0] / parts[1]),
+            power_to_db(parts[1] / parts[2]),
+            power_to_db(parts[2] / parts[3]),
             shape[0],
             shape[1],
             share,
@@ -310,27 +315,27 @@ impl Listener {
             middle.fall,
             low.deviation,
             middle.deviation,
-            10.0 * past.together,
+            10.0 * context.band_correlation,
             10.0 * ln(1.0 + self.risen_for.min(2.0) / 0.04),
             self.low_share,
             self.flux,
             low.step,
             middle.step,
-            10.0 * past.busy[0],
-            10.0 * past.busy[1],
-            past.over_peaks[0],
-            past.over_peaks[1],
-            10.0 * past.pitched,
-            10.0 * past.likeness,
-            10.0 * self.peakedness[0],
-            10.0 * self.peakedness[1],
+            10.0 * context.activity[0],
+            10.0 * context.activity[1],
+            context.peak_ratios[0],
+            context.peak_ratios[1],
+            10.0 * context.peak_periodicity,
+            10.0 * context.spectral_correlation,
+            10.0 * self.kurtosis[0],
+            10.0 * self.kurtosis[1],
         ]
         .map(|x| 0.1 * x.clamp(-60.0, 60.0));
         (measured, levels)
     }
 
-    /// Lets the means of a frame follow its periodicity, share of low, shape of the middle and highest rise (dB).
-    fn follow(&mut self, periodicity: f64, share: f64, shape: [f64; 2], rise: f64) {
+    /// Updates the averages of periodicity, share of the low band and spectral flux, and the time since the last rise (dB).
+    fn update_averages(&mut self, periodicity: f64, share: f64, shape: [f64; 2], rise: f64) {
         self.periodicity += blend(0.08) * (periodicity - self.periodicity);
         self.low_share += blend(0.16) * (share - self.low_share);
         let change = (shape[0] - self.shape[0]).abs() + (shape[1] - self.shape[1]).abs();
@@ -339,12 +344,12 @@ impl Listener {
         self.risen_for = if rise > RISEN_DB { self.risen_for + FRAME_S } else { 0.0 };
     }
 
-    /// Highest peak of the autocorrelation between the lags of 400 and 80 Hz, 0 … 1, of the excess between 94 and
-    /// 1000 Hz. The spectrum is compressed to its square root first, which whitens it, so that the colour of the noise does
-    /// not look like a pitch (Tolonen and Karjalainen 2000). r(τ) = Σ_k √E_k cos(2π k τ / N) (Wiener–Khinchin).
+    /// Highest peak of the autocorrelation of the excess of 94–1000 Hz, at the lags of 80–400 Hz, 0 … 1. The square root of the
+    /// spectrum whitens it, so that coloured noise does not look like a pitch (Tolonen and Karjalainen 2000).
+    /// r(τ) = Σ_k √E_k cos(2π k τ / N) (Wiener–Khinchin).
     fn periodicity(&self) -> f64 {
         let mut amplitude = [0.0; HARMONICS.1];
-        let mut total = NOTHING;
+        let mut total = EPSILON;
         for (a, e) in amplitude[HARMONICS.0..].iter_mut().zip(&self.excess[HARMONICS.0..]) {
             *a = e.sqrt();
             total += *a;
@@ -360,7 +365,7 @@ impl Listener {
 /// Spectral flatness, dB: geometric over arithmetic mean, 0 for white noise.
 fn flatness(power: &[f64]) -> f64 {
     let count = power.len() as f64;
-    let geometric = exp(power.iter().map(|p| ln(p + NOTHING)).sum::<f64>() / count);
-    let mean = power.iter().sum::<f64>() / count + NOTHING;
+    let geometric = exp(power.iter().map(|p| ln(p + EPSILON)).sum::<f64>() / count);
+    let mean = power.iter().sum::<f64>() / count + EPSILON;
     10.0 * log10(geometric / mean)
 }

@@ -1,23 +1,22 @@
-//! The blow detector: from microphone samples to the speed of the air at the lips.
+//! Breath detection: a streaming detector from microphone samples to the speed of the air at the lips.
 //!
 //! ```text
-//! samples → resample (8 kHz, twice) → spectrum (48 ms every 8 ms) → own (what the kiosk itself explains)
-//!         [→ capsules (what differs between two)] → features (rise over the room, shape, pitch, past) → model (log-odds)
-//!         [→ pair (log-odds of all that two tell, with nearness: what is one wave, and upper: above 4 kHz)] → decision (48 ms … 6 s) → speed
+//! samples → resample (8 kHz, two subbands) → spectrum (48 ms every 8 ms) → echo_estimate (the kiosk's own loudspeaker)
+//!         [→ dual_mic (difference of two capsules)] → features (rise over the noise floor, shape, pitch, context) → model (log-odds)
+//!         [→ dual_mic_model (log-odds from both spectra, coherence and high_band)] → decision (48 ms … 6 s) → speed
 //! ```
 //!
-//! A breath that strikes a capsule is turbulence, not sound: noise below 200 Hz that towers over the room. Level alone
-//! does not tell it from doors, trains and voices, and changes with every gain knob; so what decides is the rise over the
-//! room and the shape of what rose. Level only says how strong the breath is.
+//! A breath that strikes a microphone capsule makes turbulence, which is noise below 200 Hz far above the ambient noise. Level
+//! alone does not separate it from doors, trains and voices, and depends on the gain. So the decision rests on the rise over the
+//! noise floor and on the shape of the excess spectrum. The level only sets the strength of a detected breath.
 //!
-//! Invariants: causal; no state depends on how samples were cut into blocks; the speed is exactly 0 unless the reason
-//! is [`Reason::Blow`].
+//! Invariants: the detector is causal; its state does not depend on how samples are cut into blocks; the speed is exactly 0
+//! unless the reason is [`Reason::Blow`].
 //!
-//! It never opens a device and reads no clock or file: samples come in, at any rate from 8 to 192 kHz, and an estimate comes
-//! out. It never keeps the samples either: what it holds is features of the last seconds, from which no speech can be
-//! restored. After its construction it never allocates.
+//! The detector opens no device and reads no clock or file. It takes samples at 8 to 192 kHz. It stores features of the last
+//! seconds only, from which speech cannot be restored. After construction it never allocates.
 //!
-//! The main types are [`BlowDetector`] (one microphone, or one with two capsules), [`BlowEstimate`] (speed, confidence,
+//! The main types are [`BlowDetector`] (one microphone, with one or two capsules), [`BlowEstimate`] (speed, confidence,
 //! [`Reason`], levels) and [`BlowSettings`] (sensitivity, model, rules). The module [`generate`] makes synthetic breaths and
 //! noises for tests.
 //!
@@ -37,77 +36,78 @@
 //! assert_ne!(detector.estimate().reason, Reason::Blow, "it is over");
 //! ```
 
+mod agc_detector;
 mod bands;
-mod capsules;
+mod coherence;
 mod decision;
+mod dual_mic;
+pub mod dual_mic_model;
+mod dual_mic_table;
+mod echo_estimate;
 pub mod features;
-pub mod front;
-mod gain;
+pub mod frontend;
 pub mod generate;
-mod means;
+mod high_band;
 pub mod model;
-mod nearness;
-mod own;
-pub mod pair;
-mod pair_table;
-mod past;
+mod moving_averages;
+mod noise_floor;
 mod resample;
-mod room;
 mod spectrum;
 pub mod table;
-mod upper;
+mod temporal_context;
 
 use std::sync::{Arc, LazyLock};
 
+use agc_detector::AgcDetector;
 pub use decision::Rules;
 use decision::{Decision, Phase};
-use features::{Features, Levels, blend, decibels};
-use front::{Frame, FrontEnd, SETTLING_S, SILENCE_DBFS};
-use gain::GainControl;
+use dual_mic_model::DualMicModel;
+use features::{Features, Levels, blend, power_to_db};
+use frontend::{BreathState, Frame, Frontend, SETTLING_S, SILENCE_DBFS};
 use model::Model;
-use pair::PairModel;
 use soffio_math::pow;
 use spectrum::band;
 
 /// Speed of the hardest blow, m/s.
 const HARDEST_M_S: f64 = 17.0;
-/// Speed of the faintest wind that a detected breath makes, m/s.
+/// Lowest wind speed of a detected breath, m/s.
 const FAINTEST_M_S: f64 = 0.5;
-/// Level of the low band at the hardest blow, dB of full scale: the capsule is at its rails.
+/// Level of the low band at the hardest blow, dB of full scale: the capsule clips.
 const HARDEST_DBFS: f64 = -4.0;
 /// Level of the hiss above 400 Hz of the hardest blow at 10 cm, dB of full scale.
 const HARDEST_HISS_DBFS: f64 = -25.0;
-/// Level from which the mean of a rising breath starts, dB of full scale.
+/// Level from which the average of a rising breath starts, dB of full scale.
 const QUIETEST_BLOW_DBFS: f64 = -70.0;
 
-/// What the detector says at the end of the samples it has heard.
+/// Output of the detector after the last sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BlowEstimate {
-    /// Speed of the air at the lips, m/s; exactly 0 when nobody blows.
+    /// Speed of the air at the lips, m/s; exactly 0 without a breath.
     pub speed: f64,
-    /// 0 (certainly no blow) … 1 (certainly a blow).
+    /// 0 (certainly no breath) … 1 (certainly a breath).
     pub confidence: f64,
-    /// Why the detector decided as it did.
+    /// Reason for the decision.
     pub reason: Reason,
     /// Level of the last frame, dB of full scale (RMS).
     pub level_dbfs: f64,
-    /// Room floor of the low band, dB of full scale.
+    /// Noise floor of the low band, dB of full scale.
     pub floor_dbfs: f64,
-    /// Are samples at the rails?
+    /// Samples are clipped.
     pub clipping: bool,
-    /// Does the microphone seem to change its gain by itself? Then strength cannot be told from it.
+    /// The microphone seems to have an automatic gain control, which makes the strength unreliable.
     pub gain_control: bool,
 }
 
+/// Reason for the detector's decision.
 /// Why the detector decided as it did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reason {
     /// No samples arrive.
     #[default]
     NoSignal,
-    /// Learning the room.
+    /// The noise floor is being learnt.
     Settling,
-    /// Nothing rises above the room.
+    /// Nothing rises above the noise floor.
     Quiet,
     /// A voice or music.
     Voiced,
@@ -115,72 +115,77 @@ pub enum Reason {
     MidBand,
     /// A knock, a clap, a pop.
     Impulse,
-    /// It sounds like breath, not long enough yet.
-    Waiting,
-    /// Somebody blows.
+    /// Like breath, but not for long enough yet.
+    Pending,
+    /// A breath.
     Blow,
-    /// It went on longer than a breath can: a fan, a train.
-    Latched,
+    /// Longer than a breath can last: a fan, a train.
+    TimedOut,
     /// The kiosk's own loudspeaker.
-    OwnVoice,
+    LoudspeakerEcho,
     /// Samples are not finite numbers.
     Fault,
 }
 
-/// How the detector is set up.
+/// Settings of a detector.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BlowSettings {
-    /// Added to the microphone's level before it becomes a speed, dB; 0 suits a microphone that a hard blow at 10 cm
-    /// drives to full scale. It changes how strong a breath is taken to be, never whether it is one.
+    /// Added to the microphone's level before it is converted to a speed, dB. 0 suits a microphone that a hard blow at 10 cm
+    /// drives to full scale. It changes the strength of a breath, never its detection.
     pub sensitivity_db: f64,
-    /// Weighs the features; shared, since it is far larger than all that an ear keeps of its own.
+    /// Network over the features of one spectrum. It is shared, since it is much larger than a detector's own state.
     pub model: Arc<Model>,
-    /// Weighs what two capsules make of a frame.
-    pub pair: Arc<PairModel>,
-    /// Turns log-odds into a decision.
+    /// Network over both spectra of a dual microphone.
+    pub dual_mic_model: Arc<DualMicModel>,
+    /// Rules that turn log-odds into a decision.
     pub rules: Rules,
 }
 
 impl Default for BlowSettings {
     fn default() -> Self {
-        static ONE: LazyLock<Arc<Model>> = LazyLock::new(|| Arc::new(table::TRAINED.clone()));
-        static TWO: LazyLock<Arc<PairModel>> = LazyLock::new(|| Arc::new(pair_table::TRAINED.clone()));
-        Self { sensitivity_db: 0.0, model: ONE.clone(), pair: TWO.clone(), rules: Rules::default() }
+        static SINGLE_MIC: LazyLock<Arc<Model>> = LazyLock::new(|| Arc::new(table::TRAINED.clone()));
+        static DUAL_MIC: LazyLock<Arc<DualMicModel>> = LazyLock::new(|| Arc::new(dual_mic_table::TRAINED.clone()));
+        Self {
+            sensitivity_db: 0.0,
+            model: SINGLE_MIC.clone(),
+            dual_mic_model: DUAL_MIC.clone(),
+            rules: Rules::default(),
+        }
     }
 }
 
-/// One frame, as it was judged.
+/// Inputs and output of the models for one frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Heard<'a> {
-    /// What was weighed.
+pub struct FrameReport<'a> {
+    /// Features of one spectrum.
     pub features: &'a Features,
-    /// What was weighed of two capsules, where there are two.
-    pub pair: Option<&'a pair::Inputs>,
-    /// Frames so far.
+    /// Inputs of the dual-microphone model; `None` with one capsule.
+    pub dual_mic: Option<&'a dual_mic_model::Inputs>,
+    /// Number of frames so far.
     pub frames: u64,
-    /// Enough rose above the room for it to be weighed at all.
+    /// The frame rose far enough above the noise floor to be a breath at all.
     pub possible: bool,
-    /// What the model said.
+    /// Log-odds of breath, nats.
     pub log_odds: f64,
-    /// How far it is on its way to a breath, 0 … 1; 1 while somebody blows.
+    /// Progress of the decision towards a breath, 0 … 1; 1 during a breath.
     pub progress: f64,
 }
 
 /// Streaming, causal, deterministic detector of a breath at the microphone.
 ///
-/// Real-time: nothing is allocated after [`BlowDetector::new`]. The work per sample is bounded.
+/// Real-time safe: it allocates only in [`BlowDetector::new`], and the work per sample is bounded.
 #[derive(Clone, Debug)]
 pub struct BlowDetector {
     settings: BlowSettings,
     estimate: BlowEstimate,
-    front: FrontEnd,
+    frontend: Frontend,
     decision: Decision,
-    gain: GainControl,
+    agc: AgcDetector,
     features: Features,
-    pair: Option<pair::Inputs>,
+    dual_mic: Option<dual_mic_model::Inputs>,
     log_odds: f64,
     frames: u64,
-    /// Smoothed excess of low and of the middle, dB of full scale.
+    /// Smoothed excess of the low and middle bands, dB of full scale.
     intensity_dbfs: [f64; 2],
 }
 
@@ -195,55 +200,55 @@ impl BlowDetector {
         Self {
             settings,
             estimate: BlowEstimate { level_dbfs: SILENCE_DBFS, floor_dbfs: SILENCE_DBFS, ..Default::default() },
-            front: FrontEnd::new(sample_rate),
+            frontend: Frontend::new(sample_rate),
             decision: Decision::default(),
-            gain: GainControl::default(),
+            agc: AgcDetector::default(),
             features: [0.0; features::COUNT],
-            pair: None,
+            dual_mic: None,
             log_odds: 0.0,
             frames: 0,
             intensity_dbfs: [SILENCE_DBFS; 2],
         }
     }
 
-    /// Sets [`BlowSettings::sensitivity_db`], and keeps all that was learnt.
+    /// Sets [`BlowSettings::sensitivity_db`] and keeps everything learnt so far.
     pub fn set_sensitivity(&mut self, db: f64) {
         self.settings.sensitivity_db = db;
     }
 
-    /// Hears mono `samples` (full scale ±1). `reference` is what the kiosk's loudspeaker played in the same time
-    /// (mono, same rate, same length), or empty where the microphone cannot hear it.
+    /// Takes mono `samples` (full scale ±1). `reference` is the loudspeaker's signal over the same time (mono, same rate and
+    /// length). It is empty where the microphone cannot pick up the loudspeaker.
     pub fn push(&mut self, samples: &[f32], reference: &[f32]) {
         for (i, &sample) in samples.iter().enumerate() {
-            self.hear(sample, None, reference.get(i).copied().unwrap_or(0.0));
+            self.push_sample(sample, None, reference.get(i).copied().unwrap_or(0.0));
         }
     }
 
-    /// Hears two capsules, `left` and `right` of the same length: wind differs between them, sound does not.
+    /// Takes the samples of two capsules, `left` and `right` of the same length: wind differs between them, sound does not.
     pub fn push_stereo(&mut self, left: &[f32], right: &[f32], reference: &[f32]) {
         for (i, (&left, &right)) in left.iter().zip(right).enumerate() {
-            self.hear(left, Some(right), reference.get(i).copied().unwrap_or(0.0));
+            self.push_sample(left, Some(right), reference.get(i).copied().unwrap_or(0.0));
         }
     }
 
-    fn hear(&mut self, left: f32, right: Option<f32>, played: f32) {
-        let blowing = self.decision.phase == Phase::Blow;
-        if let Some(frame) = self.front.push(left, right, played, (blowing, self.decision.is_likely())) {
-            self.judge(&frame);
+    fn push_sample(&mut self, left: f32, right: Option<f32>, played: f32) {
+        let breath = BreathState { blowing: self.decision.phase == Phase::Blow, likely: self.decision.is_likely() };
+        if let Some(frame) = self.frontend.push(left, right, played, breath) {
+            self.process_frame(&frame);
         }
     }
 
-    /// The present estimate.
+    /// The current estimate.
     pub fn estimate(&self) -> BlowEstimate {
         self.estimate
     }
 
-    /// The last frame, as it was judged: what training learns from.
-    pub fn heard(&self) -> Heard<'_> {
+    /// Report of the last frame; training uses it.
+    pub fn last_frame(&self) -> FrameReport<'_> {
         let possible = self.decision.is_possible();
-        Heard {
+        FrameReport {
             features: &self.features,
-            pair: self.pair.as_ref(),
+            dual_mic: self.dual_mic.as_ref(),
             frames: self.frames,
             possible,
             log_odds: self.log_odds,
@@ -251,7 +256,7 @@ impl BlowDetector {
         }
     }
 
-    fn judge(&mut self, frame: &Frame) {
+    fn process_frame(&mut self, frame: &Frame) {
         self.frames += 1;
         self.estimate.level_dbfs = frame.level_dbfs;
         self.estimate.clipping = frame.clipping;
@@ -259,65 +264,66 @@ impl BlowDetector {
             self.decision = Decision::default();
             return self.conclude(Reason::Fault, 0.0);
         }
-        let heard = self.weigh(frame);
-        let (log_odds, levels) = (heard.0, &heard.2);
-        self.features = heard.1;
+        let scored = self.score_frame(frame);
+        let (log_odds, levels) = (scored.0, &scored.2);
+        self.features = scored.1;
         self.estimate.floor_dbfs = frame.levels.floor_dbfs;
         if frame.zero {
-            // An unplugged microphone sends exact zeros; a living one never does for 8 ms.
+            // An unplugged microphone sends exact zeros; a working one never does for 8 ms.
             self.decision = Decision::default();
             return self.conclude(Reason::NoSignal, 0.0);
         }
-        let settling = self.front.listener.age() < SETTLING_S;
+        let settling = self.frontend.extractor.age() < SETTLING_S;
         self.log_odds = log_odds;
-        // Who blows already may go on blowing.
-        let first = self.decision.phase == Phase::Quiet && self.front.lower.own_voice.is_first();
-        self.decision.push(&self.settings.rules, (!settling && !first).then_some(log_odds), levels);
-        self.gain.push(self.decision.phase == Phase::Blow, levels);
-        self.estimate.gain_control = self.gain.seen();
+        // The echo is unknown at first, so no breath begins then; one that has begun may continue.
+        let unknown_echo = self.decision.phase == Phase::Quiet && self.frontend.low_subband.echo.is_learning();
+        self.decision.push(&self.settings.rules, (!settling && !unknown_echo).then_some(log_odds), levels);
+        self.agc.push(self.decision.phase == Phase::Blow, levels);
+        self.estimate.gain_control = self.agc.is_detected();
         for (intensity, now) in self.intensity_dbfs.iter_mut().zip([levels.excess_dbfs, levels.hiss_dbfs]) {
             let attack = if now > *intensity { 0.03 } else { 0.08 };
             *intensity += blend(attack) * (now.max(QUIETEST_BLOW_DBFS) - *intensity);
         }
         match self.decision.phase {
             Phase::Blow => self.conclude(Reason::Blow, self.speed()),
-            Phase::Waiting => self.conclude(Reason::Waiting, 0.0),
-            Phase::Latched => self.conclude(Reason::Latched, 0.0),
+            Phase::Pending => self.conclude(Reason::Pending, 0.0),
+            Phase::TimedOut => self.conclude(Reason::TimedOut, 0.0),
             Phase::Quiet if settling => self.conclude(Reason::Settling, 0.0),
-            Phase::Quiet if first => self.conclude(Reason::OwnVoice, 0.0),
-            Phase::Quiet => self.conclude(self.why_not(levels), 0.0),
+            Phase::Quiet if unknown_echo => self.conclude(Reason::LoudspeakerEcho, 0.0),
+            Phase::Quiet => self.conclude(self.rejection_reason(levels), 0.0),
         }
     }
 
-    /// Log-odds, features and levels of the frame; where there are two capsules, the log-odds of all that they tell, and the levels
-    /// of what differs between them where that is what has risen.
-    fn weigh(&mut self, frame: &Frame) -> (f64, Features, Levels) {
+    /// Log-odds, features and levels of the frame. With two capsules the log-odds are those of the dual-microphone model, and the
+    /// levels those of the difference where the difference has risen.
+    fn score_frame(&mut self, frame: &Frame) -> (f64, Features, Levels) {
         let model = &self.settings.model;
         let alone = model.log_odds(&frame.features);
-        self.pair = None;
+        self.dual_mic = None;
         let Some((features, levels)) = frame.difference else {
             return (alone, frame.features, frame.levels);
         };
         let spectra = [(alone, &frame.features), (model.log_odds(&features), &features)];
-        let FrontEnd { capsules, nearness, upper, .. } = &self.front;
-        let inputs = pair::inputs(spectra, capsules, nearness, upper);
-        self.pair = Some(inputs);
-        let log_odds = self.settings.pair.log_odds(&inputs);
-        let rumbles = levels.rise_db > decision::LEAST_RISE_DB;
+        let Frontend { dual_mic, coherence, high_band, .. } = &self.frontend;
+        let inputs = dual_mic_model::inputs(spectra, dual_mic, coherence, high_band);
+        self.dual_mic = Some(inputs);
+        let log_odds = self.settings.dual_mic_model.log_odds(&inputs);
+        let rumbles = levels.rise_db > decision::MIN_RISE_DB;
         let (features, levels) = if rumbles { (features, levels) } else { (frame.features, frame.levels) };
-        let hiss_dbfs = levels.hiss_dbfs.max(upper.hiss_dbfs);
-        (log_odds, features, Levels { upper_rise_db: upper.rise_db, hiss_dbfs, ..levels })
+        let hiss_dbfs = levels.hiss_dbfs.max(high_band.hiss_dbfs);
+        (log_odds, features, Levels { high_band_rise_db: high_band.rise_db, hiss_dbfs, ..levels })
     }
 
-    /// The strongest single argument against breath.
-    fn why_not(&self, levels: &Levels) -> Reason {
+    /// The strongest argument against breath.
+    fn rejection_reason(&self, levels: &Levels) -> Reason {
         let f = &self.features;
-        if levels.most_db() < decision::LEAST_RISE_DB {
-            // It rises above the room, but not above what the kiosk itself explains.
-            let heard = decibels(band(&self.front.lower.framer.microphone, features::LOW.0, features::LOW.1));
-            let own = band(&self.front.lower.own_voice.predicted, features::LOW.0, features::MIDDLE.1) > 0.0;
-            let explained = own && heard > levels.floor_dbfs + decision::LEAST_RISE_DB;
-            return if explained { Reason::OwnVoice } else { Reason::Quiet };
+        if levels.max_rise_db() < decision::MIN_RISE_DB {
+            // The input may be above the noise floor, and yet not above the loudspeaker's echo.
+            let subband = &self.frontend.low_subband;
+            let level = power_to_db(band(&subband.framer.microphone, features::LOW.0, features::LOW.1));
+            let has_echo = band(&subband.echo.predicted, features::LOW.0, features::MIDDLE.1) > 0.0;
+            let explained = has_echo && level > levels.floor_dbfs + decision::MIN_RISE_DB;
+            return if explained { Reason::LoudspeakerEcho } else { Reason::Quiet };
         }
         let fall = if levels.rise_db > levels.middle_rise_db { f[features::FALL[0]] } else { f[features::FALL[1]] };
         let against = [
@@ -328,16 +334,16 @@ impl BlowDetector {
         against.iter().fold((0.0, Reason::MidBand), |most, &next| if next.0 > most.0 { next } else { most }).1
     }
 
-    /// Speed at the lips from the excess of rumble and of hiss. The pressure of turbulence goes with the square of the
+    /// Speed at the lips from the excess of rumble and of hiss. The pressure of turbulence grows with the square of the
     /// speed, that of the hiss with its power of 2.5:
     ///
     /// ```text
     /// R = 17 m/s · 10^((L − L₁₇)/40),   H = 17 m/s · 10^((L' − L'₁₇)/50),   U = max(√(R H), 0.8 H, 0.6 R)
     /// ```
     ///
-    /// Both together forgive more than each: distance takes the rumble, a stream that misses the microphone leaves the
-    /// hiss alone, foam and noise hide the hiss, and a gain control that levels the rumble leaves how the two compare.
-    /// Near full scale a capsule saturates, which the decibels flatten of themselves.
+    /// The two are combined because each can fail: distance weakens the rumble, an off-axis breath leaves only the hiss, and foam
+    /// or noise hides the hiss. A gain control changes the rumble, but not its ratio to the hiss. Near full scale a capsule
+    /// saturates, which the logarithm flattens.
     fn speed(&self) -> f64 {
         let [rumble, hiss] = self.intensity_dbfs.map(|level| level + self.settings.sensitivity_db);
         let rumble = pow(10.0, (rumble - HARDEST_DBFS) / 40.0);
@@ -349,7 +355,7 @@ impl BlowDetector {
     fn conclude(&mut self, reason: Reason, speed: f64) {
         self.estimate.reason = reason;
         self.estimate.speed = speed;
-        let heard = !matches!(reason, Reason::Fault | Reason::NoSignal | Reason::Latched | Reason::Settling);
-        self.estimate.confidence = if heard { self.decision.confidence() } else { 0.0 };
+        let is_valid = !matches!(reason, Reason::Fault | Reason::NoSignal | Reason::TimedOut | Reason::Settling);
+        self.estimate.confidence = if is_valid { self.decision.confidence() } else { 0.0 };
     }
 }

@@ -1,33 +1,33 @@
-//! The networks that weigh what was heard: small, of two layers, bounded everywhere.
+//! Neural networks of the detector: multilayer perceptrons with two hidden layers and softsign activations, bounded everywhere.
 //!
 //! ```text
 //! x_i = clamp((f_i − m_i) / s_i, ±3),   h = σ(A x + a),   g = σ(B h + b),   ℓ = C · g + c,   σ(z) = z / (1 + |z|)
 //! ```
 //!
-//! ℓ is the log-odds of breath in one frame. σ needs no transcendental and never saturates to a number that cannot be
-//! left again in training. One weighs the features of a spectrum ([`Model`]), another one what two capsules make of it
-//! ([`super::pair`]). Trained by `soffio-training train`, which writes `table.rs` and `pair_table.rs`.
+//! ℓ is the log-odds of breath in one frame. Softsign σ needs no transcendental function, and its gradient never vanishes in
+//! training. One network weighs the features of one spectrum ([`Model`]), another those of a dual microphone
+//! ([`super::dual_mic_model`]). `soffio-training train` trains them and writes `table.rs` and `dual_mic_table.rs`.
 
 use std::borrow::Cow;
 
 use super::features;
 
-/// The network that weighs the features of one spectrum.
+/// Network over the features of one spectrum.
 pub type Model = Network<{ features::COUNT }, 64, 24>;
 
-/// Standardised features are cut here: what was never met in training says no more than the farthest that was.
-const FARTHEST: f64 = 3.0;
+/// Limit of standardised inputs: values beyond those of the training count as the largest of those.
+const INPUT_LIMIT: f64 = 3.0;
 
-/// All numbers of a network of so many inputs, with layers of so many cells.
+/// Weights of a network with `IN` inputs and hidden layers of `FIRST` and `SECOND` cells.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Network<const IN: usize, const FIRST: usize, const SECOND: usize> {
     /// Mean and deviation of each input, m and s.
     pub scale: [[f64; 2]; IN],
-    /// Aᵀ row by row, then a; Bᵀ, b; C, c: [`Self::PARAMETERS`] of them.
+    /// Aᵀ row by row, then a; Bᵀ, b; C, c: [`Self::PARAMETERS`] weights.
     pub weights: Cow<'static, [f64]>,
 }
 
-/// Values of the layers at one frame: what training differentiates.
+/// Values of all layers for one frame; training differentiates them.
 #[derive(Clone, Debug)]
 pub struct Layers<const IN: usize, const FIRST: usize, const SECOND: usize> {
     /// Standardised inputs x.
@@ -41,9 +41,9 @@ pub struct Layers<const IN: usize, const FIRST: usize, const SECOND: usize> {
 }
 
 impl<const IN: usize, const FIRST: usize, const SECOND: usize> Network<IN, FIRST, SECOND> {
-    /// Where Bᵀ, and C, begin among the weights.
+    /// Index of Bᵀ among the weights.
     pub const B: usize = FIRST * (IN + 1);
-    /// See [`Self::B`].
+    /// Index of C among the weights.
     pub const C: usize = Self::B + SECOND * (FIRST + 1);
     /// Parameters that are trained.
     pub const PARAMETERS: usize = Self::C + SECOND + 1;
@@ -55,13 +55,13 @@ impl<const IN: usize, const FIRST: usize, const SECOND: usize> Network<IN, FIRST
 
     /// x of the inputs.
     pub fn standardised(&self, inputs: &[f64; IN]) -> [f64; IN] {
-        std::array::from_fn(|i| ((inputs[i] - self.scale[i][0]) / self.scale[i][1]).clamp(-FARTHEST, FARTHEST))
+        std::array::from_fn(|i| ((inputs[i] - self.scale[i][0]) / self.scale[i][1]).clamp(-INPUT_LIMIT, INPUT_LIMIT))
     }
 
     /// All layers at standardised inputs.
     pub fn layers(&self, input: &[f64; IN]) -> Layers<IN, FIRST, SECOND> {
-        let first = affine(&self.weights[..Self::B], input).map(bend);
-        let second = affine(&self.weights[Self::B..Self::C], &first).map(bend);
+        let first = affine(&self.weights[..Self::B], input).map(softsign);
+        let second = affine(&self.weights[Self::B..Self::C], &first).map(softsign);
         let [log_odds] = affine(&self.weights[Self::C..], &second);
         Layers { input: *input, first, second, log_odds }
     }
@@ -80,6 +80,6 @@ fn affine<const N: usize, const M: usize>(weights: &[f64], x: &[f64; N]) -> [f64
     sum
 }
 
-fn bend(z: f64) -> f64 {
+fn softsign(z: f64) -> f64 {
     z / (1.0 + z.abs())
 }

@@ -1,21 +1,20 @@
-//! One internal rate for every microphone: streaming windowed-sinc resamplers to 8 kHz, one of what lies below 4 kHz and one
-//! of what lies above.
+//! Streaming sample-rate conversion to 8 kHz by windowed-sinc kernels: one for the subband below 4 kHz, one for that above.
 //!
-//! Everything after this file works on 8 kHz samples, so a microphone's rate (8–192 kHz) cannot change a decision.
-//! Breath lives below 200 Hz, voices are told by their harmonics below 3 kHz. Above that a stream still hisses while a
-//! crowd is low, and two capsules listen there too ([`super::upper`]).
+//! All later stages work on 8 kHz samples, so the microphone's rate (8–192 kHz) cannot change a decision. Breath is strongest below
+//! 200 Hz, and the harmonics of voices lie below 3 kHz. Above that a breath still hisses while a crowd is quiet, so dual
+//! microphones use that subband too ([`super::high_band`]).
 //!
 //! Symbols: R input rate, F = 8000 Hz output rate, H half length of the kernel in input samples.
 //! The kernel is a low pass at f_c = 3500 Hz under a Hann window (J. O. Smith, "Digital Audio Resampling"):
 //!
 //! ```text
 //! h(t) = (2 f_c / R) · sinc(2 f_c t / R) · cos²(π t / (2 H)),   |t| < H
-//! y(k) = Σ_j x(n − j) · h(j − φ − H),   φ ∈ [0, 1): how long before sample n the output instant lies
+//! y(k) = Σ_j x(n − j) · h(j − φ − H),   φ ∈ [0, 1): distance of the output instant before sample n
 //! ```
 //!
-//! The upper one is a low pass at f_c = 1650 Hz turned up to f₀ = 5650 Hz, h(t) · 2 cos(2π f₀ t / R). What it lets through,
-//! 4.4 to 7 kHz, has no other place among samples at 8 kHz but 1 to 3.6 kHz, in reverse: f lies at F − f (bandpass sampling;
-//! Vaughan, Scott and White, IEEE Trans. Signal Process. 39, 1991). It is lifted by 20 dB, as rooms and voices fall towards it.
+//! The kernel of the high band is a low pass at f_c = 1650 Hz modulated to f₀ = 5650 Hz, h(t) · 2 cos(2π f₀ t / R). It passes 4.4 to
+//! 7 kHz, which 8 kHz samples represent at 1 to 3.6 kHz, in reverse: f lies at F − f (bandpass sampling; Vaughan, Scott and White,
+//! IEEE Trans. Signal Process. 39, 1991). Its gain is 20 dB, since ambient noise and voices fall towards high frequencies.
 //!
 //! φ is kept as an integer numerator over F, so the output instants never drift.
 //! Invariant: outputs depend on the samples alone, never on how they were cut into blocks.
@@ -26,11 +25,14 @@ use soffio_math::{PI, cos, from_decibels, sin};
 pub const INTERNAL_RATE: u32 = 8000;
 /// Cut-off of the kernel, Hz: the features end at 3.4 kHz.
 const CUTOFF_HZ: f64 = 3500.0;
-/// The same of what lies above, its middle, Hz, and how much it is lifted; no rate below the least, Hz, has it.
-const UPPER_CUTOFF_HZ: f64 = 1650.0;
-const UPPER_MIDDLE_HZ: f64 = 5650.0;
-pub const UPPER_LIFT_DB: f64 = 20.0;
-const UPPER_LEAST_RATE: u32 = 16000;
+/// Cut-off of the high band's kernel before modulation, Hz.
+const HIGH_BAND_CUTOFF_HZ: f64 = 1650.0;
+/// Centre of the high band, Hz.
+const HIGH_BAND_CENTRE_HZ: f64 = 5650.0;
+/// Gain of the high band, dB.
+pub const HIGH_BAND_GAIN_DB: f64 = 20.0;
+/// Lowest sample rate with a high band, Hz.
+const HIGH_BAND_MIN_RATE: u32 = 16000;
 /// Half length of the kernel, s: its transition band is about 1 kHz wide.
 const HALF_LENGTH_S: f64 = 0.002;
 /// Tabulated phases per input sample; between them the kernel is interpolated linearly (error below −70 dB).
@@ -45,27 +47,27 @@ pub struct Resampler {
     taps: usize,
     /// `PHASES + 1` rows of `taps` coefficients.
     kernel: Vec<f64>,
-    /// The last `taps` samples, twice, so that a run of them is always contiguous.
+    /// The last `taps` samples, twice, so that any run of them is contiguous.
     history: Vec<f64>,
     next: usize,
-    /// Zeros in a row; a history of nothing but zeros needs no sum.
+    /// Consecutive zeros; a history of only zeros needs no sum.
     zeros: usize,
 }
 
 impl Resampler {
-    /// A resampler from `rate` Hz (raised to 8 kHz if lower) to [`INTERNAL_RATE`], of what lies below 4 kHz.
+    /// A resampler from `rate` Hz (raised to 8 kHz if lower) to [`INTERNAL_RATE`], for the subband below 4 kHz.
     pub fn new(rate: u32) -> Self {
         Self::with_kernel(rate, CUTOFF_HZ, |_| 1.0)
     }
 
-    /// The same of what lies above, 4.4 to 7 kHz, in reverse at 1 to 3.6 kHz, and 20 dB louder; of less than 16 kHz silence.
-    pub fn upper(rate: u32) -> Self {
-        let lift = if rate < UPPER_LEAST_RATE { 0.0 } else { 2.0 * from_decibels(UPPER_LIFT_DB) };
-        Self::with_kernel(rate, UPPER_CUTOFF_HZ, |seconds| lift * cos(2.0 * PI * UPPER_MIDDLE_HZ * seconds))
+    /// A resampler for the high band, 4.4 to 7 kHz: in reverse at 1 to 3.6 kHz, 20 dB louder; silent below a rate of 16 kHz.
+    pub fn high_band(rate: u32) -> Self {
+        let gain = if rate < HIGH_BAND_MIN_RATE { 0.0 } else { 2.0 * from_decibels(HIGH_BAND_GAIN_DB) };
+        Self::with_kernel(rate, HIGH_BAND_CUTOFF_HZ, |seconds| gain * cos(2.0 * PI * HIGH_BAND_CENTRE_HZ * seconds))
     }
 
-    /// A low pass, turned over time, s.
-    fn with_kernel(rate: u32, cutoff_hz: f64, turned: impl Fn(f64) -> f64) -> Self {
+    /// A low pass with a modulation over time, s.
+    fn with_kernel(rate: u32, cutoff_hz: f64, modulation: impl Fn(f64) -> f64) -> Self {
         let rate = rate.max(INTERNAL_RATE);
         let half = (HALF_LENGTH_S * f64::from(rate)).ceil();
         let taps = 2 * half as usize + 1;
@@ -84,7 +86,7 @@ impl Resampler {
             // Unit gain at 0 Hz in every row, so that a constant input leaves no ripple.
             let sum: f64 = kernel[start..].iter().sum();
             for (j, h) in kernel[start..].iter_mut().enumerate() {
-                *h = *h / sum * turned((j as f64 - fraction - half) / f64::from(rate));
+                *h = *h / sum * modulation((j as f64 - fraction - half) / f64::from(rate));
             }
         }
         Self { rate, phase: 0, taps, kernel, history: vec![0.0; 2 * taps], next: 0, zeros: taps }
@@ -124,8 +126,8 @@ mod tests {
     use super::*;
     use soffio_math::{decibels, sin};
 
-    /// Level of a tone that has gone through, over a second, dB of what it was; and its frequency, Hz.
-    fn heard(mut resampler: Resampler, rate: u32, hz: f64) -> (f64, f64) {
+    /// Gain, dB, and output frequency, Hz, of a tone, measured over a second.
+    fn response(mut resampler: Resampler, rate: u32, hz: f64) -> (f64, f64) {
         let tone = |i: u32| sin(2.0 * PI * hz * f64::from(i) / f64::from(rate));
         let out: Vec<f64> =
             (0..2 * rate).filter_map(|i| resampler.push(tone(i))).skip(INTERNAL_RATE as usize).collect();
@@ -135,22 +137,22 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_above_four_kilohertz_is_told_in_reverse_and_lifted_and_the_rest_is_not() {
-        /// dB of a lift that the kernel's own edges take a little of.
+    fn the_high_band_is_reversed_and_raised_and_the_rest_is_stopped() {
+        /// Loss at the edges of the kernel, dB.
         const LESS_DB: f64 = 2.0;
-        /// One crossing at either end of a second.
+        /// Error of the count: one crossing at either end of a second.
         const COUNTED_HZ: f64 = 1.5;
         for rate in [16_000, 44_100, 48_000, 96_000] {
             for hz in [4600.0, 5650.0, 6700.0] {
-                let (level, at) = heard(Resampler::upper(rate), rate, hz);
-                assert!((level - UPPER_LIFT_DB).abs() < LESS_DB, "{hz} Hz at {rate}: {level:.1} dB");
-                assert!((at - (8000.0 - hz)).abs() < COUNTED_HZ, "{hz} Hz at {rate} is heard as {at}");
+                let (level, at) = response(Resampler::high_band(rate), rate, hz);
+                assert!((level - HIGH_BAND_GAIN_DB).abs() < LESS_DB, "{hz} Hz at {rate}: {level:.1} dB");
+                assert!((at - (8000.0 - hz)).abs() < COUNTED_HZ, "{hz} Hz at {rate} comes out at {at}");
             }
             for hz in [200.0, 1000.0, 2500.0, 3300.0] {
-                let (level, _) = heard(Resampler::upper(rate), rate, hz);
-                assert!(level < UPPER_LIFT_DB - 40.0, "{hz} Hz at {rate}: {level:.1} dB");
+                let (level, _) = response(Resampler::high_band(rate), rate, hz);
+                assert!(level < HIGH_BAND_GAIN_DB - 40.0, "{hz} Hz at {rate}: {level:.1} dB");
             }
         }
-        assert!(heard(Resampler::upper(11_025), 11_025, 5000.0).0 < -200.0, "there is none");
+        assert!(response(Resampler::high_band(11_025), 11_025, 5000.0).0 < -200.0, "there is none");
     }
 }

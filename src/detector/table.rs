@@ -1,22 +1,22 @@
-//! What the network of one spectrum has learnt: written by `soffio-training train`, not by hand.
+//! Trained weights of the network of one spectrum. Written by `soffio-training train`, not by hand.
 
 use std::borrow::Cow;
 
 use super::model::Model;
 
-/// What was learnt.
+/// Trained weights.
 #[rustfmt::skip]
-#[allow(clippy::approx_constant)] // what was learnt, whatever it resembles
+#[allow(clippy::approx_constant)] // trained values may resemble constants by chance
 pub static TRAINED: Model = Model {
     scale: [
-        [1.0487, 1.1610], // rise of 31–94 Hz over the room, 10 dB
+        [1.0487, 1.1610], // rise of 31–94 Hz over the noise floor, 10 dB
         [1.1300, 1.0898], // rise of 94–203 Hz
         [1.0006, 1.0179], // rise of 203–406 Hz
         [1.0101, 0.9165], // rise of 406–812 Hz
         [0.8905, 0.8809], // rise of 812–1625 Hz
         [0.6913, 0.8002], // rise of 1625–3400 Hz
-        [0.2432, 1.1349], // rise of low less twice the room's unrest there, 10 dB
-        [-0.0287, 0.9056], // rise of middle less twice the room's unrest there, 10 dB
+        [0.2432, 1.1349], // rise of low less twice its floor variance, 10 dB
+        [-0.0287, 0.9056], // rise of middle less twice its floor variance, 10 dB
         [-0.9103, 1.1044], // excess of 31–94 Hz over 94–203 Hz, 10 dB
         [-0.3115, 1.1287], // excess of 94–203 Hz over 203–406 Hz
         [0.0719, 0.8169], // excess of 203–406 Hz over 406–812 Hz
@@ -41,22 +41,22 @@ pub static TRAINED: Model = Model {
         [0.2457, 0.1046], // change of the middle's shape from frame to frame, 10 dB
         [0.3790, 0.5227], // steepest step of low in 0.1 s, 10 dB
         [0.2667, 0.4767], // steepest step of middle in 0.1 s
-        [0.2665, 0.1502], // part of the last 4 s in which low had risen
-        [0.3230, 0.1979], // part of the last 4 s in which middle had risen
-        [-0.4292, 1.0172], // low over its own peak of the seconds before, 10 dB
-        [-0.3463, 0.9598], // middle over its own peak of the seconds before
+        [0.2665, 0.1502], // activity of low in the last 4 s
+        [0.3230, 0.1979], // activity of middle in the last 4 s
+        [-0.4292, 1.0172], // ratio of low to its own peak, 10 dB
+        [-0.3463, 0.9598], // ratio of middle to its own peak
         [0.4364, 0.1884], // highest periodicity of the last second
-        [0.5015, 0.4223], // likeness of low's bins to those of 48 ms ago
-        [-0.0580, 0.1286], // peakedness of the treble over 40 ms
-        [-0.0604, 0.1004], // peakedness of the treble over 0.16 s
-        [0.9440, 1.0491], // rise of 31–94 Hz over the room, 10 dB, mean of 0.1 s
+        [0.5015, 0.4223], // spectral correlation of low with 48 ms ago
+        [-0.0580, 0.1286], // kurtosis of the treble over 40 ms
+        [-0.0604, 0.1004], // kurtosis of the treble over 0.16 s
+        [0.9440, 1.0491], // rise of 31–94 Hz over the noise floor, 10 dB, mean of 0.1 s
         [0.9978, 0.9964], // rise of 94–203 Hz, mean of 0.1 s
         [0.9048, 0.9047], // rise of 203–406 Hz, mean of 0.1 s
         [0.9009, 0.8099], // rise of 406–812 Hz, mean of 0.1 s
         [0.8032, 0.7606], // rise of 812–1625 Hz, mean of 0.1 s
         [0.6271, 0.6826], // rise of 1625–3400 Hz, mean of 0.1 s
-        [0.1273, 1.0236], // rise of low less twice the room's unrest there, 10 dB, mean of 0.1 s
-        [-0.1148, 0.7935], // rise of middle less twice the room's unrest there, 10 dB, mean of 0.1 s
+        [0.1273, 1.0236], // rise of low less twice its floor variance, 10 dB, mean of 0.1 s
+        [-0.1148, 0.7935], // rise of middle less twice its floor variance, 10 dB, mean of 0.1 s
         [-0.8645, 0.8678], // excess of 31–94 Hz over 94–203 Hz, 10 dB, mean of 0.1 s
         [-0.3812, 0.9519], // excess of 94–203 Hz over 203–406 Hz, mean of 0.1 s
         [0.0853, 0.6421], // excess of 203–406 Hz over 406–812 Hz, mean of 0.1 s
@@ -81,22 +81,22 @@ pub static TRAINED: Model = Model {
         [0.2474, 0.0925], // change of the middle's shape from frame to frame, 10 dB, mean of 0.1 s
         [0.3474, 0.3576], // steepest step of low in 0.1 s, 10 dB, mean of 0.1 s
         [0.2386, 0.3262], // steepest step of middle in 0.1 s, mean of 0.1 s
-        [0.2582, 0.1506], // part of the last 4 s in which low had risen, mean of 0.1 s
-        [0.3156, 0.1998], // part of the last 4 s in which middle had risen, mean of 0.1 s
-        [-0.5719, 0.9114], // low over its own peak of the seconds before, 10 dB, mean of 0.1 s
-        [-0.4533, 0.8474], // middle over its own peak of the seconds before, mean of 0.1 s
+        [0.2582, 0.1506], // activity of low in the last 4 s, mean of 0.1 s
+        [0.3156, 0.1998], // activity of middle in the last 4 s, mean of 0.1 s
+        [-0.5719, 0.9114], // ratio of low to its own peak, 10 dB, mean of 0.1 s
+        [-0.4533, 0.8474], // ratio of middle to its own peak, mean of 0.1 s
         [0.4469, 0.1870], // highest periodicity of the last second, mean of 0.1 s
-        [0.4936, 0.2869], // likeness of low's bins to those of 48 ms ago, mean of 0.1 s
-        [-0.0601, 0.1041], // peakedness of the treble over 40 ms, mean of 0.1 s
-        [-0.0623, 0.0920], // peakedness of the treble over 0.16 s, mean of 0.1 s
-        [0.7364, 0.8450], // rise of 31–94 Hz over the room, 10 dB, mean of 0.5 s
+        [0.4936, 0.2869], // spectral correlation of low with 48 ms ago, mean of 0.1 s
+        [-0.0601, 0.1041], // kurtosis of the treble over 40 ms, mean of 0.1 s
+        [-0.0623, 0.0920], // kurtosis of the treble over 0.16 s, mean of 0.1 s
+        [0.7364, 0.8450], // rise of 31–94 Hz over the noise floor, 10 dB, mean of 0.5 s
         [0.7780, 0.8054], // rise of 94–203 Hz, mean of 0.5 s
         [0.7272, 0.7168], // rise of 203–406 Hz, mean of 0.5 s
         [0.7243, 0.6359], // rise of 406–812 Hz, mean of 0.5 s
         [0.6548, 0.5873], // rise of 812–1625 Hz, mean of 0.5 s
         [0.5111, 0.5202], // rise of 1625–3400 Hz, mean of 0.5 s
-        [-0.0462, 0.8049], // rise of low less twice the room's unrest there, 10 dB, mean of 0.5 s
-        [-0.2360, 0.6173], // rise of middle less twice the room's unrest there, 10 dB, mean of 0.5 s
+        [-0.0462, 0.8049], // rise of low less twice its floor variance, 10 dB, mean of 0.5 s
+        [-0.2360, 0.6173], // rise of middle less twice its floor variance, 10 dB, mean of 0.5 s
         [-0.8431, 0.7434], // excess of 31–94 Hz over 94–203 Hz, 10 dB, mean of 0.5 s
         [-0.4512, 0.8108], // excess of 94–203 Hz over 203–406 Hz, mean of 0.5 s
         [0.0777, 0.4824], // excess of 203–406 Hz over 406–812 Hz, mean of 0.5 s
@@ -121,14 +121,14 @@ pub static TRAINED: Model = Model {
         [0.2453, 0.0792], // change of the middle's shape from frame to frame, 10 dB, mean of 0.5 s
         [0.3063, 0.2652], // steepest step of low in 0.1 s, 10 dB, mean of 0.5 s
         [0.2017, 0.2392], // steepest step of middle in 0.1 s, mean of 0.5 s
-        [0.2372, 0.1474], // part of the last 4 s in which low had risen, mean of 0.5 s
-        [0.2968, 0.2032], // part of the last 4 s in which middle had risen, mean of 0.5 s
-        [-0.7528, 0.8585], // low over its own peak of the seconds before, 10 dB, mean of 0.5 s
-        [-0.5977, 0.7795], // middle over its own peak of the seconds before, mean of 0.5 s
+        [0.2372, 0.1474], // activity of low in the last 4 s, mean of 0.5 s
+        [0.2968, 0.2032], // activity of middle in the last 4 s, mean of 0.5 s
+        [-0.7528, 0.8585], // ratio of low to its own peak, 10 dB, mean of 0.5 s
+        [-0.5977, 0.7795], // ratio of middle to its own peak, mean of 0.5 s
         [0.4636, 0.1675], // highest periodicity of the last second, mean of 0.5 s
-        [0.4942, 0.2508], // likeness of low's bins to those of 48 ms ago, mean of 0.5 s
-        [-0.0646, 0.0783], // peakedness of the treble over 40 ms, mean of 0.5 s
-        [-0.0661, 0.0745], // peakedness of the treble over 0.16 s, mean of 0.5 s
+        [0.4942, 0.2508], // spectral correlation of low with 48 ms ago, mean of 0.5 s
+        [-0.0646, 0.0783], // kurtosis of the treble over 40 ms, mean of 0.5 s
+        [-0.0661, 0.0745], // kurtosis of the treble over 0.16 s, mean of 0.5 s
     ],
     weights: Cow::Borrowed(&[
         -0.0946, -0.2230, -0.2455, 0.1670, -0.2295, 0.1137, 0.1134, -0.1521, 0.2580, -0.4997, -0.2476,

@@ -1,45 +1,47 @@
-//! The programme of a day: visits one after another, staff between them, works in turn.
+//! Programme of a day: visits one after another, staff tasks between them, exhibits in turn.
 
-use super::visitor::{Press, Pressed, Visit, Way};
+use super::visitor::{Intent, Press, TimedPress, Visit};
 use soffio_config::CLEANING_S;
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{PI, sin};
 
-/// Nobody comes before the kiosk has heard the room, s.
+/// Beginning of the first visit, s: the detector learns the noise floor before.
 const BEGINS_S: f64 = 20.0;
-/// Between two visits of a queue, and of an afternoon, s.
+/// Pause between two visits of a queue, s.
 const QUEUE_S: (f64, f64) = (8.0, 20.0);
-const APART_S: (f64, f64) = (20.0, 90.0);
-/// Between two doings of staff, and two changes of the work, s; at most a fifth and a third of the day.
-const DUTY_S: f64 = 1200.0;
-const CHANGE_S: f64 = 1500.0;
-/// A work gathers itself and comes to rest before somebody blows at it, s.
-const GATHERS_S: f64 = 12.0;
-/// How long the microphone is out, s.
+/// Pause between two visits of a quiet afternoon, s.
+const QUIET_S: (f64, f64) = (20.0, 90.0);
+/// Time between two staff tasks, s; at most a fifth of the day.
+const TASK_INTERVAL_S: f64 = 1200.0;
+/// Time between two changes of the exhibit, s; at most a third of the day.
+const CHANGE_INTERVAL_S: f64 = 1500.0;
+/// Time in which a new exhibit is assembled and comes to rest, s.
+const ASSEMBLY_S: f64 = 12.0;
+/// Time for which the microphone is unplugged, s.
 const UNPLUGGED_S: f64 = 30.0;
-/// Longer than the idle time, before attract mode must have begun, s.
+/// Time after the idle time in which attract mode must begin, s.
 const GRACE_S: f64 = 5.0;
 
-/// How full the house is at a part of the day (0 … 1): it fills and empties, and two school classes come.
-pub fn busyness(part: f64) -> f64 {
+/// Occupancy of the venue at a part of the day (0 … 1): it rises and falls, with two school classes.
+pub fn occupancy(part: f64) -> f64 {
     let tide = sin(PI * part.clamp(0.0, 1.0));
     let classes = [0.30..0.38, 0.62..0.68].iter().any(|class| class.contains(&part));
     0.3 + 0.7 * tide * tide + if classes { 0.8 } else { 0.0 }
 }
 
-/// What staff do.
+/// A task of the staff.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Task {
-    /// Mute it, and let it sound again.
+    /// Mute the kiosk, and unmute it.
     Mute,
     /// Switch input off and clean the glass.
     Clean,
-    /// Pull the microphone's cable, and put it back.
+    /// Unplug the microphone, and plug it in again.
     Unplug,
 }
 
 impl Task {
-    /// In a word.
+    /// Name of the task.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mute => "mute",
@@ -48,7 +50,7 @@ impl Task {
         }
     }
 
-    /// The group of those who come right after it.
+    /// Group of the visitors who come right after it.
     pub fn after(self) -> &'static str {
         match self {
             Self::Mute => "after a mute",
@@ -58,98 +60,107 @@ impl Task {
     }
 }
 
-/// A task and when.
+/// A staff task and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Duty {
-    /// What.
+pub struct StaffTask {
+    /// The task.
     pub task: Task,
-    /// s of the day.
+    /// Beginning, s of the day.
     pub from: f64,
-    /// s of the day.
+    /// End, s of the day.
     pub until: f64,
 }
 
-/// A visit and what it has to do with staff.
+/// A visit, the exhibit on show, and the staff tasks about it.
 #[derive(Clone, Debug)]
 pub struct Entry {
     /// The visit.
     pub visit: Visit,
-    /// The work on show, by its place among the works.
-    pub work: usize,
-    /// What staff do meanwhile.
+    /// Index of the exhibit on show.
+    pub exhibit: usize,
+    /// Staff task during the visit.
     pub during: Option<Task>,
-    /// What staff have just done.
+    /// Staff task just before the visit.
     pub after: Option<Task>,
-    /// A moment of no meaning about the visit, s of the day.
+    /// A random moment during the visit, for comparison, s of the day.
     pub shuffled: f64,
 }
 
 impl Entry {
-    /// Should the kiosk answer? Not while it is cleaned or its cable is out.
-    pub fn answered(&self) -> bool {
+    /// True where the kiosk should respond: the visitor acts, and the kiosk is neither cleaned nor unplugged.
+    pub fn expects_response(&self) -> bool {
         self.visit.onset().is_some() && !matches!(self.during, Some(Task::Clean | Task::Unplug))
     }
 }
 
-/// A day.
+/// Change to another exhibit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExhibitChange {
+    /// Time, s of the day.
+    pub at: f64,
+    /// Index of the new exhibit.
+    pub exhibit: usize,
+}
+
+/// Programme of a day.
 #[derive(Clone, Debug, Default)]
 pub struct Day {
-    /// In order; no two overlap.
+    /// Visits in order; no two overlap.
     pub entries: Vec<Entry>,
-    /// In order.
-    pub duties: Vec<Duty>,
-    /// When another work is chosen (s of the day), and which.
-    pub changes: Vec<(f64, usize)>,
-    /// When attract mode must be playing, s of the day.
+    /// Staff tasks in order.
+    pub staff_tasks: Vec<StaffTask>,
+    /// Changes of the exhibit in order.
+    pub changes: Vec<ExhibitChange>,
+    /// Times at which attract mode must be playing, s of the day.
     pub attracts: Vec<f64>,
     /// Length, s.
     pub length: f64,
 }
 
 impl Day {
-    /// A day of so many seconds with so many works; `idle_s` is the time after which attract mode plays, if it does.
-    pub fn new(seed: u64, length: f64, works: usize, idle_s: Option<f64>) -> Self {
+    /// A day of `length` seconds with a number of exhibits; `idle_s` is the time until attract mode, if the site has it.
+    pub fn new(seed: u64, length: f64, exhibits: usize, idle_s: Option<f64>) -> Self {
         let mut day = Self { length, ..Self::default() };
         let mut random = Random::new(hash_words(&[seed, 0x6461_7973]));
         let random = &mut random;
-        let (duty_s, change_s) = (DUTY_S.min(length / 5.0), CHANGE_S.min(length / 3.0));
-        let (mut next_duty, mut next_change) = (0.6 * duty_s, change_s);
+        let (task_interval, change_interval) = (TASK_INTERVAL_S.min(length / 5.0), CHANGE_INTERVAL_S.min(length / 3.0));
+        let (mut next_task, mut next_change) = (0.6 * task_interval, change_interval);
         let mut tasks = [Task::Mute, Task::Clean, Task::Unplug].into_iter().cycle();
-        let (mut now, mut work) = (BEGINS_S, 0);
+        let (mut now, mut exhibit) = (BEGINS_S, 0);
         loop {
             let mut ready = 0.0;
-            if now >= next_change && works > 1 {
-                next_change += change_s;
-                work = (work + 1) % works;
-                day.changes.push((now, work));
-                ready = GATHERS_S;
+            if now >= next_change && exhibits > 1 {
+                next_change += change_interval;
+                exhibit = (exhibit + 1) % exhibits;
+                day.changes.push(ExhibitChange { at: now, exhibit });
+                ready = ASSEMBLY_S;
             }
             let mut after = None;
-            if now >= next_duty {
-                next_duty += duty_s;
+            if now >= next_task {
+                next_task += task_interval;
                 let task = tasks.next().unwrap_or(Task::Mute);
-                let visit = meanwhile(task, now, ready, random);
+                let visit = visit_during(task, now, ready, random);
                 let until = match task {
                     Task::Mute => visit.leaves + 1.0,
                     Task::Clean => now + CLEANING_S,
                     Task::Unplug => (now + UNPLUGGED_S).max(visit.leaves),
                 };
-                day.duties.push(Duty { task, from: now, until });
-                day.enter(visit, work, (Some(task), None), random);
-                // Who blew into a mute kiosk has made way, as in any queue; after the others nothing swings.
-                let apart = if task == Task::Mute { random.range(QUEUE_S.0, QUEUE_S.1) } else { 0.0 };
-                (after, ready, now) = (Some(task), 0.0, until + apart);
+                day.staff_tasks.push(StaffTask { task, from: now, until });
+                day.enter(visit, exhibit, StaffContext { during: Some(task), after: None }, random);
+                // After a mute the next visitor comes as in a queue; after the other tasks nothing moves any more.
+                let pause = if task == Task::Mute { random.range(QUEUE_S.0, QUEUE_S.1) } else { 0.0 };
+                (after, ready, now) = (Some(task), 0.0, until + pause);
             }
             let visit = match after {
-                // Who comes right after staff is who is asked about.
-                Some(_) => Visit::of(Way::Blows, now, ready, random),
+                // A visit right after a task must test it.
+                Some(_) => Visit::of(Intent::Blows, now, ready, random),
                 None => Visit::new(now, ready, random),
             };
-            let (leaves, way) = (visit.leaves, visit.way);
-            day.enter(visit, work, (None, after), random);
-            let (low, high) = if random.unit() < 0.5 { QUEUE_S } else { APART_S };
+            let (leaves, intent) = (visit.leaves, visit.intent);
+            day.enter(visit, exhibit, StaffContext { during: None, after }, random);
+            let (low, high) = if random.unit() < 0.5 { QUEUE_S } else { QUIET_S };
             now = leaves + random.range(low, high);
-            if way == Way::WalksAway
+            if intent == Intent::WalksAway
                 && let Some(idle) = idle_s
             {
                 now = leaves + idle + GRACE_S;
@@ -157,30 +168,37 @@ impl Day {
                 now += 1.0;
             }
             if now > length {
-                // Whoever would still be there when the doors close has not come.
+                // Visits that would end after closing time are left out.
                 day.entries.retain(|entry| entry.visit.leaves < length);
-                day.duties.retain(|duty| duty.until < length);
+                day.staff_tasks.retain(|task| task.until < length);
                 day.attracts.retain(|at| *at < length);
                 return day;
             }
         }
     }
 
-    fn enter(&mut self, visit: Visit, work: usize, (during, after): (Option<Task>, Option<Task>), random: &mut Random) {
+    fn enter(&mut self, visit: Visit, exhibit: usize, staff: StaffContext, random: &mut Random) {
+        let StaffContext { during, after } = staff;
         let shuffled = random.range(visit.arrives, visit.leaves.max(visit.arrives + 1.0));
-        self.entries.push(Entry { visit, work, during, after, shuffled });
+        self.entries.push(Entry { visit, exhibit, during, after, shuffled });
     }
 }
 
-/// What somebody does while staff are about: a visitor blows as ever, into a kiosk that is mute or deaf; a cloth wipes.
-fn meanwhile(task: Task, now: f64, ready: f64, random: &mut Random) -> Visit {
-    let mut visit = Visit::of(Way::Blows, now + 2.0, ready, random);
+/// Staff tasks about a visit.
+struct StaffContext {
+    during: Option<Task>,
+    after: Option<Task>,
+}
+
+/// Visit during a staff task: a visitor who blows at the muted or unplugged kiosk, or a cloth that wipes the glass.
+fn visit_during(task: Task, now: f64, ready: f64, random: &mut Random) -> Visit {
+    let mut visit = Visit::of(Intent::Blows, now + 2.0, ready, random);
     if task == Task::Clean {
         visit.presses = (0..4)
             .map(|i| {
                 let from = now + 5.0 + 12.0 * f64::from(i);
                 let at = [random.range(0.2, 0.8), random.range(0.2, 0.8)];
-                Pressed { from, until: from + 3.0, press: Press::Finger(at) }
+                TimedPress { from, until: from + 3.0, press: Press::Finger(at) }
             })
             .collect();
         visit.aim = None;

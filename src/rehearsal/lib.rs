@@ -1,25 +1,22 @@
-//! A synthetic gallery day: visitors, a crowd, staff and the kiosk's own loudspeaker around the whole pipeline, in a closed
-//! loop, judged by what leaves the kiosk.
+//! Rehearsal of a synthetic gallery day: visitors, a crowd, staff and the kiosk's own echo around the whole pipeline, in a closed loop.
+//! The kiosk is scored by its pictures and its sound.
 //!
 //! ```text
-//! day (who comes, when) → visitor ─┐
-//!                  crowd, air ─────┤ house → microphone → machine (all that runs live) ─┬→ eyes → pictures ──┐
-//!          room ← loudspeaker ─────┘                                                   └→ ears → loudspeaker ┴→ judge → report
-//!            ↑                                                                                   │
-//!            └───────────────────────────────────────────────────────────────────────────────────┘
+//! day (programme) → visitor ─┐
+//!            crowd, air ─────┤ venue → microphone → kiosk_under_test ─┬→ video_observer → pictures ──┐
+//!   echo_path ← loudspeaker ─┘                                       └→ audio_observer → output ────┴→ scorer → report
+//!            ↑                                                                            │
+//!            └────────────────────────────────────────────────────────────────────────────┘
 //! ```
 //!
-//! Speakers, rooms and breaths come from seeds that no training uses
-//! ([`EXAM`](soffio_soundscape::EXAM)). The same seed gives the same day and, on one machine, the same report; nothing here asks what time it is.
+//! Speakers, rooms and breaths use seeds that training never uses ([`FIRST_VALIDATION_SEED`](soffio_soundscape::FIRST_VALIDATION_SEED)).
+//! The same seed gives the same day and, on one computer, the same report. Nothing reads a clock.
 //!
-//! It never opens a device: microphone and loudspeaker are computed, and so is the time of day. It writes no file; the
-//! program prints its [`report`]. It draws pictures, so it needs a Vulkan driver, software or not.
+//! It never opens a device: microphone, loudspeaker and time of day are computed. It writes no file; the program prints its
+//! [`report`]. It draws pictures, so it needs a Vulkan driver, which may be a software one.
 //!
-//! The main types are [`Rehearsal`] (what is rehearsed), [`day::Day`] (who comes when, and what staff do),
-//! [`visitor::Visit`] (one visitor) and [`judge`] (whether a visitor was answered). [`run()`] rehearses with pictures;
-//! [`listen()`] lets the detector alone hear the same day.
-//!
-//! ```
+//! The main types are [`Rehearsal`] (the settings), [`day::Day`] (the programme), [`visitor::Visit`] (one visitor) and [`scorer`]
+//! (whether the exhibit responds). [`run()`] rehearses with pictures; [`run_detector()`] runs the detector alone over the same day.
 //! use soffio_rehearsal::day::Day;
 //!
 //! // The programme of one hour with three exhibits; attract mode begins after two minutes.
@@ -30,26 +27,26 @@
 //! assert_ne!(begins(1), begins(2));
 //! ```
 
+mod audio_observer;
 mod blocks;
+mod breath_snr;
+mod control_run;
 pub mod day;
-mod ears;
-mod eyes;
-mod house;
-pub mod judge;
-pub mod listening;
+pub mod detector_only;
+mod echo_path;
+mod kiosk_under_test;
 mod loudness;
-mod machine;
 mod rate;
 mod rehearsal;
 pub mod report;
-mod room;
 mod run;
-mod standing;
-mod twin;
+pub mod scorer;
+mod venue;
+mod video_observer;
 pub mod visitor;
 
-pub use house::{Crowd, recorded};
-pub use listening::listen;
+pub use detector_only::run_detector;
+pub use echo_path::ROOMS;
 pub use rehearsal::{Rehearsal, RehearsalError, featured_exhibits};
-pub use room::ROOMS;
 pub use run::run;
+pub use venue::{Crowd, recorded};

@@ -1,6 +1,7 @@
-//! Between the sound card's 48 kHz and the 16 kHz at which rooms and voices are made, block by block.
+//! Sample-rate conversion between the sound card's 48 kHz and the 16 kHz of the synthetic sound, block by block.
 //!
-//! One windowed sinc serves both ways (Hann, 48 taps, corner 7.2 kHz): down it keeps what would fold, up it fills in.
+//! One windowed-sinc low pass serves both directions (Hann, 48 taps, corner 7.2 kHz): it prevents aliasing when decimating, and removes
+//! images when interpolating.
 
 use soffio_math::{PI, cos, sin};
 
@@ -8,10 +9,10 @@ use soffio_math::{PI, cos, sin};
 pub const RATIO: usize = 3;
 /// Taps of the low pass, at 48 kHz.
 const TAPS: usize = 16 * RATIO;
-/// Its corner, parts of 48 kHz.
+/// Corner of the low pass, relative to 48 kHz.
 const CORNER: f64 = 0.15;
 
-/// The low pass, of unit gain at 0 Hz.
+/// Coefficients of the low pass, with unit gain at 0 Hz.
 fn low_pass() -> [f64; TAPS] {
     let middle = 0.5 * (TAPS as f64 - 1.0);
     let mut taps = std::array::from_fn(|i| {
@@ -24,55 +25,55 @@ fn low_pass() -> [f64; TAPS] {
     taps
 }
 
-/// From 48 kHz to 16 kHz.
+/// Decimator from 48 kHz to 16 kHz.
 #[derive(Clone)]
-pub struct Coarser {
+pub struct Decimator {
     taps: [f64; TAPS],
-    past: [f64; TAPS],
+    history: [f64; TAPS],
 }
 
-impl Coarser {
-    /// In silence.
+impl Decimator {
+    /// A converter in silence.
     pub fn new() -> Self {
-        Self { taps: low_pass(), past: [0.0; TAPS] }
+        Self { taps: low_pass(), history: [0.0; TAPS] }
     }
 
-    /// A third as many samples; a block's length is a multiple of three.
+    /// Converts a block to a third as many samples; its length must be a multiple of three.
     pub fn convert(&mut self, fine: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut out = Vec::new();
         for (i, x) in fine.enumerate() {
-            self.past.rotate_right(1);
-            self.past[0] = x;
+            self.history.rotate_right(1);
+            self.history[0] = x;
             if i % RATIO == RATIO - 1 {
-                out.push(self.taps.iter().zip(&self.past).map(|(tap, x)| tap * x).sum());
+                out.push(self.taps.iter().zip(&self.history).map(|(tap, x)| tap * x).sum());
             }
         }
         out
     }
 }
 
-/// From 16 kHz to 48 kHz.
+/// Interpolator from 16 kHz to 48 kHz.
 #[derive(Clone)]
-pub struct Finer {
+pub struct Interpolator {
     taps: [f64; TAPS],
-    past: [f64; TAPS / RATIO],
+    history: [f64; TAPS / RATIO],
 }
 
-impl Finer {
-    /// In silence.
+impl Interpolator {
+    /// A converter in silence.
     pub fn new() -> Self {
-        Self { taps: low_pass(), past: [0.0; TAPS / RATIO] }
+        Self { taps: low_pass(), history: [0.0; TAPS / RATIO] }
     }
 
-    /// Three times as many samples.
+    /// Converts a block to three times as many samples.
     pub fn convert(&mut self, coarse: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut out = Vec::new();
         for x in coarse {
-            self.past.rotate_right(1);
-            self.past[0] = x;
+            self.history.rotate_right(1);
+            self.history[0] = x;
             for phase in 0..RATIO {
                 let taps = self.taps.iter().skip(phase).step_by(RATIO);
-                out.push(RATIO as f64 * taps.zip(&self.past).map(|(tap, x)| tap * x).sum::<f64>());
+                out.push(RATIO as f64 * taps.zip(&self.history).map(|(tap, x)| tap * x).sum::<f64>());
             }
         }
         out
@@ -84,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_tone_survives_both_ways_and_what_would_fold_is_gone() {
+    fn a_tone_survives_both_directions_and_aliasing_is_removed() {
         // Ripple of the window, and the corner's slope at 1 kHz.
         const RIPPLE: f64 = 0.01;
         // Beyond the corner by a third of an octave and more.
@@ -95,12 +96,12 @@ mod tests {
             (settled.iter().map(|x| x * x).sum::<f64>() / settled.len() as f64).sqrt()
         };
         let half = 0.5_f64.sqrt();
-        let coarse = Coarser::new().convert(tone(1000.0));
+        let coarse = Decimator::new().convert(tone(1000.0));
         assert_eq!(coarse.len(), 1600);
         assert!((rms(&coarse) / half - 1.0).abs() < RIPPLE, "{}", rms(&coarse));
-        let fine = Finer::new().convert(coarse.into_iter());
+        let fine = Interpolator::new().convert(coarse.into_iter());
         assert_eq!(fine.len(), 4800);
         assert!((rms(&fine) / half - 1.0).abs() < RIPPLE, "{}", rms(&fine));
-        assert!(rms(&Coarser::new().convert(tone(10_000.0))) < STOPPED * half);
+        assert!(rms(&Decimator::new().convert(tone(10_000.0))) < STOPPED * half);
     }
 }

@@ -1,51 +1,51 @@
-//! What is rehearsed, and the house that it is rehearsed in.
+//! Settings of a rehearsal, and its venue.
 
 use std::sync::Arc;
 
-use super::house::{Crowd, House};
-use super::room::{Echo, ROOMS, room};
+use super::echo_path::{EchoPath, ROOMS, room};
+use super::venue::{Crowd, Venue, VenueSettings};
 use soffio_config::{Config, OTHERS};
 use soffio_exhibit::{self as exhibit, Diagnostic, Exhibit, Report};
 use soffio_kiosk::venue::site::Site;
 use soffio_math::noise::{Random, hash_words};
 use soffio_render::RenderError;
-use soffio_soundscape::EXAM;
-use soffio_soundscape::scenes::World;
+use soffio_soundscape::FIRST_VALIDATION_SEED;
+use soffio_soundscape::scenes::Scenario;
 
-/// Exhibits that visitors choose from: the first ones of the site.
+/// Number of exhibits that visitors choose from: the first ones of the site.
 const FEATURED: usize = 3;
 
-/// What is rehearsed.
+/// Settings of a rehearsal.
 pub struct Rehearsal {
-    /// Works that visitors choose from; the first is on show when the day begins.
-    pub works: Vec<Arc<Exhibit>>,
+    /// Exhibits that visitors choose from; the first is on show when the day begins.
+    pub exhibits: Vec<Arc<Exhibit>>,
     /// The site's settings.
     pub site: Site,
     /// Name of the room, one of [`ROOMS`].
     pub room: String,
     /// Capsules of the microphone, 1 or 2.
     pub capsules: usize,
-    /// Who is in it.
+    /// Source of the crowd's sound.
     pub crowd: Crowd,
     /// Length of the day, h.
     pub hours: f64,
-    /// Of the day, its people and its sounds.
+    /// Seed of visitors and sounds.
     pub seed: u64,
 }
 
-/// Why there is no report.
+/// Reason why there is no report.
 #[derive(Debug, thiserror::Error)]
 pub enum RehearsalError {
-    /// There is no such room.
+    /// There is no room of this name.
     #[error("there is no room \"{name}\"; there are: {}", ROOMS.map(|(name, ..)| name).join(", "))]
     Room {
-        /// The name.
+        /// The given name.
         name: String,
     },
-    /// No pictures.
+    /// A picture could not be drawn.
     #[error("{0}")]
     Pictures(#[from] RenderError),
-    /// Ctrl-C.
+    /// The run was interrupted by Ctrl-C.
     #[error("interrupted")]
     Interrupted,
 }
@@ -68,13 +68,18 @@ pub fn featured_exhibits(config: &Config) -> Result<Vec<Arc<Exhibit>>, Report> {
     ids.iter().map(|id| exhibit::load(&exhibit::resolve(&folder(id))?).map(Arc::new)).collect()
 }
 
-/// The house of a day, and its way from loudspeaker to microphone.
-pub(super) fn open_house(rehearsal: &mut Rehearsal) -> Result<House, RehearsalError> {
+/// The venue of a rehearsal, with its room and its echo path.
+pub(super) fn open_venue(rehearsal: &mut Rehearsal) -> Result<Venue, RehearsalError> {
     let mut random = Random::new(hash_words(&[rehearsal.seed, 0x726f_6f6d]));
     let unknown = || RehearsalError::Room { name: rehearsal.room.clone() };
     let gallery = room(&rehearsal.room, &mut random).ok_or_else(unknown)?;
-    let echo = Echo::new(&gallery, rehearsal.capsules, &mut random);
-    let world = World::in_room(EXAM + hash_words(&[rehearsal.seed, 0x7669_7369]) % EXAM, gallery);
+    let echo = EchoPath::new(&gallery, rehearsal.capsules, &mut random);
+    let scenario = Scenario::in_room(
+        FIRST_VALIDATION_SEED + hash_words(&[rehearsal.seed, 0x7669_7369]) % FIRST_VALIDATION_SEED,
+        gallery,
+    );
     let crowd = std::mem::replace(&mut rehearsal.crowd, Crowd::Made);
-    Ok(House::new(world, echo, crowd, rehearsal.seed, (3600.0 * rehearsal.hours, rehearsal.capsules)))
+    let settings =
+        VenueSettings { seed: rehearsal.seed, day_s: 3600.0 * rehearsal.hours, capsules: rehearsal.capsules };
+    Ok(Venue::new(scenario, echo, crowd, &settings))
 }

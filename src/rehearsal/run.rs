@@ -1,19 +1,19 @@
-//! The day, step by step.
+//! Run of a rehearsed day, step by step.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::audio_observer::AudioObserver;
 use super::blocks::FRAMES;
-use super::day::{Day, Duty, Task};
-use super::ears::Ears;
-use super::eyes::{Eyes, Seen, picture_at};
-use super::house::House;
-use super::judge::{self, Answer, FPS};
-use super::machine::Machine;
-use super::rehearsal::{Rehearsal, RehearsalError, open_house};
-use super::report::{Judged, Nobody, Report, Share, StaffCheck};
-use super::standing::Above;
-use super::twin::left_alone;
+use super::breath_snr::BreathSnr;
+use super::control_run::control_poses;
+use super::day::{Day, StaffTask, Task};
+use super::kiosk_under_test::KioskUnderTest;
+use super::rehearsal::{Rehearsal, RehearsalError, open_venue};
+use super::report::{FalseTrigger, Report, ScoredVisit, StaffCheck, VisitShare};
+use super::scorer::{self, FPS, Response};
+use super::venue::Venue;
+use super::video_observer::{Observations, VideoObserver, picture_at};
 use super::visitor::Press;
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::step::controls::Controls;
@@ -24,140 +24,167 @@ use soffio_wind::SurfaceShape;
 
 /// Width over height of the picture.
 const ASPECT: f64 = 16.0 / 9.0;
-/// A visit's sounds are made so long before it, s.
+/// Time before a visit at which its sounds are made, s.
 const AHEAD_S: f64 = 1.0;
-/// No answer to nobody in this time before a visitor's doing, s.
+/// Time before a visitor's action in which a false trigger spoils it, s.
 const UNTOUCHED_S: f64 = 10.0;
-/// What somebody has done is answered for so long after it ends, s: the wind dies down, the room rings.
+/// Time after the end of an action in which the kiosk may still respond to it, s: wind and reverberation die away.
 pub(super) const AFTERMATH_S: f64 = 2.0;
-/// Wind may seem to begin this little before the breath that makes it, s: the length of a frame.
+/// Largest lead of a detected wind over its breath, s: the length of a frame.
 pub(super) const EARLY_S: f64 = 0.05;
-/// What staff do has taken effect after this time, s.
+/// Time in which a staff task takes effect, s.
 const TAKES_EFFECT_S: f64 = 1.0;
-/// Whoever has blown waits so long for something to move, s.
+/// Time for which a visitor waits for a response before trying again, s.
 const PATIENCE_S: f64 = 1.0;
-/// A pull reaches its end after this time, s: too soon for a press that is meant to blow.
+/// Time in which a pull reaches its end, s: too short for a press that blows.
 const PULL_S: f64 = 0.4;
 
-/// Rehearses a day. `on_second` hears how many seconds of it are over.
+/// Rehearses a day; `on_second` is called with the number of seconds that are over.
+///
+/// # Errors
+/// There is no such room, no Vulkan driver, or the run was interrupted.
 pub fn run(
     mut rehearsal: Rehearsal,
     stop: &AtomicBool,
     mut on_second: impl FnMut(u64),
 ) -> Result<Report, RehearsalError> {
-    let house = open_house(&mut rehearsal)?;
+    let venue = open_venue(&mut rehearsal)?;
     let length = 3600.0 * rehearsal.hours;
-    let day = Day::new(rehearsal.seed, length, rehearsal.works.len(), rehearsal.site.idle_s);
-    let mut course = Course::new(&rehearsal, day, house)?;
+    let day = Day::new(rehearsal.seed, length, rehearsal.exhibits.len(), rehearsal.site.idle_s);
+    let mut run = DayRun::new(&rehearsal, day, venue)?;
     for step in 0..(length * STEPS_PER_SECOND as f64) as u64 {
-        course.step(step);
+        run.step(step);
         if step % STEPS_PER_SECOND == 0 {
             on_second(step / STEPS_PER_SECOND);
         }
         if stop.load(Ordering::Relaxed) {
             return Err(RehearsalError::Interrupted);
         }
-        if course.eyes.have_failed() {
+        if run.video.has_failed() {
             break;
         }
     }
-    course.report(&rehearsal)
+    run.report(&rehearsal)
 }
 
-/// A moment that is judged when its pictures are there.
-struct Moment {
+/// Key of a scored moment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Key {
+    /// Index of the entry.
     entry: usize,
+    /// Index of the visitor's action: of a breath, or 0 for the first press; `None` for a random moment.
+    action: Option<usize>,
+}
+
+/// A moment that is scored once its pictures exist.
+struct PendingMoment {
+    key: Key,
     /// s of the day.
     at: f64,
-    /// Which of the visitor's breaths, or of other doings the first, begins; `None` for a moment of no meaning.
-    doing: Option<usize>,
-    /// The work had nobody come, from then on.
-    alone: Vec<Vec<Pose>>,
+    /// Poses of the control run from then on.
+    control: Vec<Vec<Pose>>,
 }
 
-/// The day so far.
-struct Course<'a> {
+/// A staff task, and whether the kiosk has behaved as required so far.
+struct CheckedTask {
+    task: StaffTask,
+    good: bool,
+}
+
+/// State of the day.
+struct DayRun<'a> {
     rehearsal: &'a Rehearsal,
     day: Day,
-    house: House,
-    machine: Machine,
-    /// Is asked about an entry's doing (which one) or about a moment of no meaning.
-    eyes: Eyes<(usize, Option<usize>)>,
-    ears: Ears,
+    venue: Venue,
+    kiosk: KioskUnderTest,
+    video: VideoObserver<Key>,
+    audio: AudioObserver,
     controls: Controls,
     blocks: u64,
-    work: usize,
-    /// Entries whose sounds are made; the one that is on.
+    exhibit: usize,
+    /// Number of entries whose sounds are made.
     made: usize,
+    /// Index of the current entry.
     current: usize,
-    changed: usize,
-    attract_asked: usize,
-    returned: usize,
-    /// What is being pulled: the press's beginning and where it took.
-    pulled: Option<(f64, [f64; 2])>,
-    waiting: Vec<Moment>,
-    notes: Notes,
-    /// When attract mode last played, and when the kiosk last blew for somebody, s.
+    /// Number of changes of the exhibit so far.
+    changes_made: usize,
+    /// Number of checks of attract mode so far, and of those that found it playing.
+    attract_checks: usize,
+    attract_returns: usize,
+    /// Place in the picture at which a visitor's pull began.
+    pull_from: Option<[f64; 2]>,
+    pending: Vec<PendingMoment>,
+    log: Log,
+    /// Last time at which attract mode played, s.
     attracted: f64,
+    /// Last time at which there was wind outside attract mode, s.
     blew: f64,
-    duties: Vec<(Duty, bool)>,
+    staff: Vec<CheckedTask>,
 }
 
-/// What is noted of the day for its report.
-struct Notes {
-    /// Did the entry's onset end attract mode?
+/// First wind after a visitor's action.
+struct Detection {
+    /// Index of the entry.
+    entry: usize,
+    /// Time since the onset, s.
+    after_s: f64,
+}
+
+/// Log of the day, for its report.
+struct Log {
+    /// Entries whose onset ended attract mode.
     woke: Vec<usize>,
-    /// Entries whose doing made wind, and after how long, s.
-    heard: Vec<(usize, f64)>,
-    /// How far each entry's first breath stood above the house, dB.
-    above: Vec<Option<Above>>,
-    /// What the ear said in the second after each entry's onset, and how often.
-    ear: Vec<BTreeMap<String, u32>>,
-    phantoms: Vec<Nobody>,
+    /// First wind of each visit, in order.
+    detected: Vec<Detection>,
+    /// Signal-to-noise ratio of each entry's first breath, dB.
+    snr_db: Vec<Option<BreathSnr>>,
+    /// Reasons of the detector in the second after each entry's onset, and their numbers of steps.
+    detector: Vec<BTreeMap<String, u32>>,
+    false_triggers: Vec<FalseTrigger>,
 }
 
-impl Notes {
+impl Log {
     fn new(entries: usize) -> Self {
         Self {
             woke: Vec::new(),
-            heard: Vec::new(),
-            above: vec![None; entries],
-            ear: vec![BTreeMap::new(); entries],
-            phantoms: Vec::new(),
+            detected: Vec::new(),
+            snr_db: vec![None; entries],
+            detector: vec![BTreeMap::new(); entries],
+            false_triggers: Vec::new(),
         }
     }
 
-    /// Answers to nobody in the time before a visitor's doing.
-    fn phantoms_before(&self, onset: f64) -> usize {
+    /// Number of false triggers in the ten seconds before an onset.
+    fn false_triggers_before(&self, onset: f64) -> usize {
         let before = onset - UNTOUCHED_S..onset;
-        self.phantoms.iter().filter(|nobody| before.contains(&nobody.at_s)).count()
+        self.false_triggers.iter().filter(|trigger| before.contains(&trigger.at_s)).count()
     }
 }
 
-impl<'a> Course<'a> {
-    fn new(rehearsal: &'a Rehearsal, day: Day, house: House) -> Result<Self, RehearsalError> {
-        let eyes = Eyes::new(&rehearsal.works)?;
-        let machine = Machine::new(rehearsal.works[0].clone(), &rehearsal.site, rehearsal.capsules);
+impl<'a> DayRun<'a> {
+    fn new(rehearsal: &'a Rehearsal, day: Day, venue: Venue) -> Result<Self, RehearsalError> {
+        let video = VideoObserver::new(&rehearsal.exhibits)?;
+        let kiosk = KioskUnderTest::new(rehearsal.exhibits[0].clone(), &rehearsal.site, rehearsal.capsules);
         let entries = day.entries.len();
         Ok(Self {
             rehearsal,
-            duties: day.duties.iter().map(|duty| (*duty, true)).collect(),
+            staff: day.staff_tasks.iter().map(|task| CheckedTask { task: *task, good: true }).collect(),
             day,
-            house,
-            machine,
-            eyes,
-            ears: Ears::new(),
+            venue,
+            kiosk,
+            video,
+            audio: AudioObserver::new(),
             controls: Controls { aspect: ASPECT, ..Controls::default() },
             blocks: 0,
-            work: 0,
+            exhibit: 0,
             made: 0,
             current: 0,
-            changed: 0,
-            attract_asked: 0,
-            returned: 0,
-            pulled: None,
-            waiting: Vec::new(),
-            notes: Notes::new(entries),
+            changes_made: 0,
+            attract_checks: 0,
+            attract_returns: 0,
+            pull_from: None,
+            pending: Vec::new(),
+            log: Log::new(entries),
             attracted: f64::NEG_INFINITY,
             blew: f64::NEG_INFINITY,
         })
@@ -168,71 +195,72 @@ impl<'a> Course<'a> {
         self.programme(now);
         while (self.blocks + 1) * FRAMES as u64 <= step * SAMPLES_PER_STEP {
             self.blocks += 1;
-            let heard = self.house.hear(self.machine.played());
-            self.machine.exchange(&heard);
-            for began in self.ears.hear(self.machine.played(), self.machine.played_in_still_air()) {
-                self.wind(began);
+            let recorded = self.venue.next_block(self.kiosk.played());
+            self.kiosk.exchange(&recorded);
+            for began in self.audio.push(self.kiosk.played(), self.kiosk.played_in_still_air()) {
+                self.log_wind(began);
             }
         }
         self.act(now);
         self.try_again(now);
-        let plugged = !self.on_duty(now, Task::Unplug);
-        self.controls.inert = self.on_duty(now, Task::Clean);
-        for moment in self.waiting.iter_mut().filter(|moment| begins(moment.at, now)) {
-            moment.alone = left_alone(&self.machine.stage, &self.controls, picture_at(moment.at));
+        let plugged = !self.is_in_progress(Task::Unplug, now);
+        self.controls.inert = self.is_in_progress(Task::Clean, now);
+        for moment in self.pending.iter_mut().filter(|moment| begins(moment.at, now)) {
+            moment.control = control_poses(&self.kiosk.stage, &self.controls, picture_at(moment.at));
         }
-        self.machine.step(&self.controls, plugged);
-        if self.machine.stage.attracts() {
+        self.kiosk.step(&self.controls, plugged);
+        if self.kiosk.stage.attracts() {
             self.attracted = now;
         }
         if self.blows() {
             self.blew = now;
         }
-        self.note_heard(now);
-        self.watch_staff(now);
-        self.eyes.look(step + 1, self.work, self.machine.stage.snapshot());
-        self.ask((step + 1) * FPS / STEPS_PER_SECOND);
+        self.log_detection(now);
+        self.check_staff(now);
+        self.video.record(step + 1, self.exhibit, self.kiosk.stage.snapshot());
+        self.request_scores((step + 1) * FPS / STEPS_PER_SECOND);
     }
 
-    fn on_duty(&self, now: f64, task: Task) -> bool {
-        self.day.duties.iter().any(|duty| duty.task == task && (duty.from..duty.until).contains(&now))
+    fn is_in_progress(&self, task: Task, now: f64) -> bool {
+        self.day.staff_tasks.iter().any(|staff| staff.task == task && (staff.from..staff.until).contains(&now))
     }
 
-    /// What begins now: visits, staff, another work.
+    /// Starts due visits, staff tasks and changes of the exhibit.
     fn programme(&mut self, now: f64) {
         while let Some(entry) = self.day.entries.get(self.made).filter(|entry| entry.visit.arrives - AHEAD_S <= now) {
-            let (capsules, apart) = (self.house.capsules(), self.house.world().apart());
-            for (at, sound) in entry.visit.noises(self.house.world(), capsules) {
-                self.house.put(at, sound);
+            let (capsules, spacing) = (self.venue.capsules(), self.venue.scenario().spacing());
+            for (at, sound) in entry.visit.noises(self.venue.scenario(), capsules) {
+                self.venue.put(at, sound);
             }
             for breath in &entry.visit.breaths {
-                self.house.put_breath(breath.onset, breath.sound(capsules, apart));
+                self.venue.put_breath(breath.onset, breath.sound(capsules, spacing));
             }
-            if entry.answered()
+            if entry.expects_response()
                 && let Some(onset) = entry.visit.onset()
             {
-                for (at, doing) in [(onset, Some(0)), (entry.shuffled, None)] {
-                    self.waiting.push(Moment { entry: self.made, at, doing, alone: Vec::new() });
+                for (at, action) in [(onset, Some(0)), (entry.shuffled, None)] {
+                    let key = Key { entry: self.made, action };
+                    self.pending.push(PendingMoment { key, at, control: Vec::new() });
                 }
             }
             self.made += 1;
         }
-        if let Some((_, work)) = self.day.changes.get(self.changed).filter(|(at, _)| *at <= now) {
-            self.work = *work;
-            self.machine.show(self.rehearsal.works[self.work].clone());
-            self.changed += 1;
+        if let Some(change) = self.day.changes.get(self.changes_made).filter(|change| change.at <= now) {
+            self.exhibit = change.exhibit;
+            self.kiosk.show(self.rehearsal.exhibits[self.exhibit].clone());
+            self.changes_made += 1;
         }
-        let muted = self.on_duty(now, Task::Mute);
-        if muted != self.machine.is_muted() {
-            self.machine.toggle_mute();
+        let muted = self.is_in_progress(Task::Mute, now);
+        if muted != self.kiosk.is_muted() {
+            self.kiosk.toggle_mute();
         }
-        if self.day.attracts.get(self.attract_asked).is_some_and(|at| *at <= now) {
-            self.attract_asked += 1;
-            self.returned += usize::from(self.machine.stage.attracts());
+        if self.day.attracts.get(self.attract_checks).is_some_and(|at| *at <= now) {
+            self.attract_checks += 1;
+            self.attract_returns += usize::from(self.kiosk.stage.attracts());
         }
     }
 
-    /// What the visitor of the moment does, as the window would tell it.
+    /// Sets the controls to the actions of the current visitor, as the window would.
     fn act(&mut self, now: f64) {
         while self.day.entries.get(self.current).is_some_and(|entry| entry.visit.leaves < now) {
             self.current += 1;
@@ -241,14 +269,15 @@ impl<'a> Course<'a> {
         self.controls.presses.clear();
         let Some(entry) = self.day.entries.get(self.current).filter(|entry| entry.visit.arrives <= now) else { return };
         let visit = &entry.visit;
-        if entry.answered() && visit.onset().is_some_and(|onset| begins(onset, now)) && self.machine.stage.attracts() {
-            self.notes.woke.push(self.current);
+        let is_onset = visit.onset().is_some_and(|onset| begins(onset, now));
+        if entry.expects_response() && is_onset && self.kiosk.stage.attracts() {
+            self.log.woke.push(self.current);
         }
         if let Some(breath) = visit.breaths.first().filter(|breath| begins(breath.onset, now)) {
-            self.house.look_at(breath.onset);
+            self.venue.measure_snr(breath.onset);
         }
-        if let Some((_, place)) = visit.aim.filter(|(at, _)| begins(*at, now)) {
-            self.controls.aim = Some(place);
+        if let Some(aim) = visit.aim.filter(|aim| begins(aim.at, now)) {
+            self.controls.aim = Some(aim.point);
             self.controls.activity += 1;
         }
         for (i, pressed) in visit.presses.iter().enumerate().filter(|(_, p)| (p.from..p.until).contains(&now)) {
@@ -256,149 +285,147 @@ impl<'a> Course<'a> {
             match pressed.press {
                 Press::Key => self.controls.hold = true,
                 Press::Finger(at) => self.controls.presses.push(gesture::Press { id, at }),
-                Press::Pull(which, pull) => {
-                    let (_, from) = *self.pulled.get_or_insert_with(|| {
-                        let place = place(self.machine.stage.exhibit(), self.machine.stage.snapshot(), which);
-                        (pressed.from, place)
-                    });
+                Press::Pull { which, by } => {
+                    let from = *self
+                        .pull_from
+                        .get_or_insert_with(|| place(self.kiosk.stage.exhibit(), self.kiosk.stage.snapshot(), which));
                     let part = ((now - pressed.from) / PULL_S).min(1.0);
-                    let at = [from[0] + part * pull[0] / ASPECT, from[1] + part * pull[1]];
+                    let at = [from[0] + part * by[0] / ASPECT, from[1] + part * by[1]];
                     self.controls.presses.push(gesture::Press { id, at: at.map(|x| x.clamp(0.0, 1.0)) });
                 }
             }
         }
         if self.controls.presses.is_empty() {
-            self.pulled = None;
+            self.pull_from = None;
         }
     }
 
-    /// Whoever has blown, and seen nothing move since, blows again while nobody else has come; that is looked at too.
+    /// A visitor who has blown and seen no response blows again, unless another visitor comes; that breath is scored too.
     fn try_again(&mut self, now: f64) {
         let comes = self.day.entries.get(self.current + 1).map_or(self.day.length, |next| next.visit.arrives);
-        let Some(entry) = self.day.entries.get_mut(self.current).filter(|entry| entry.answered()) else { return };
+        let Some(entry) = self.day.entries.get_mut(self.current).filter(|entry| entry.expects_response()) else {
+            return;
+        };
         let visit = &mut entry.visit;
         if visit.onset().is_none_or(|onset| self.blew >= onset) {
             return;
         }
-        if visit.blown().is_some_and(|end| begins(end + PATIENCE_S, now))
-            && let Some(breath) = visit.tries_again().filter(|breath| breath.end() + PATIENCE_S < comes)
+        if visit.last_breath_end().is_some_and(|end| begins(end + PATIENCE_S, now))
+            && let Some(breath) = visit.retry().filter(|breath| breath.end() + PATIENCE_S < comes)
         {
-            let sound = breath.sound(self.house.capsules(), self.house.world().apart());
-            self.house.put_breath(breath.onset, sound);
+            let sound = breath.sound(self.venue.capsules(), self.venue.scenario().spacing());
+            self.venue.put_breath(breath.onset, sound);
             visit.leaves = visit.leaves.max(breath.end() + PATIENCE_S);
             visit.breaths.push(breath);
         }
-        let begins_now = visit.separate().skip(1).find(|(_, breath)| begins(breath.onset, now));
-        if let Some((doing, breath)) = begins_now {
-            let (entry, at, doing) = (self.current, breath.onset, Some(doing));
-            self.waiting.push(Moment { entry, at, doing, alone: Vec::new() });
+        let begins_now = visit.successive_breaths().skip(1).find(|(_, breath)| begins(breath.onset, now));
+        if let Some((action, breath)) = begins_now {
+            let key = Key { entry: self.current, action: Some(action) };
+            self.pending.push(PendingMoment { key, at: breath.onset, control: Vec::new() });
         }
     }
 
-    /// Does the kiosk blow for somebody? What the invitation blows is nobody's.
+    /// True where there is wind outside attract mode.
     fn blows(&self) -> bool {
-        self.machine.stage.snapshot().breath.speed > 0.0 && !self.machine.stage.attracts()
+        self.kiosk.stage.snapshot().breath.speed > 0.0 && !self.kiosk.stage.attracts()
     }
 
-    /// Does the kiosk blow within a second of what the visitor does?
-    fn note_heard(&mut self, now: f64) {
+    /// Logs wind within a second of the visitor's onset, with the signal-to-noise ratio and the detector's reason.
+    fn log_detection(&mut self, now: f64) {
         let onset = self.day.entries.get(self.current).and_then(|entry| entry.visit.onset());
         let Some(onset) = onset.filter(|onset| (*onset..onset + 1.0).contains(&now)) else { return };
         let blows = self.blows();
-        let above = &mut self.notes.above[self.current];
-        if above.is_none() && !self.day.entries[self.current].visit.breaths.is_empty() {
-            *above = self.house.above_db();
+        let snr_db = &mut self.log.snr_db[self.current];
+        if snr_db.is_none() && !self.day.entries[self.current].visit.breaths.is_empty() {
+            *snr_db = self.venue.snr_db();
         }
-        let reason = self.machine.stage.snapshot().breath.estimate.reason;
-        *self.notes.ear[self.current].entry(format!("{reason:?}")).or_default() += 1;
-        if blows && self.notes.heard.last().is_none_or(|(entry, _)| *entry != self.current) {
-            self.notes.heard.push((self.current, now - onset));
+        let reason = self.kiosk.stage.snapshot().breath.estimate.reason;
+        *self.log.detector[self.current].entry(format!("{reason:?}")).or_default() += 1;
+        if blows && self.log.detected.last().is_none_or(|detection| detection.entry != self.current) {
+            self.log.detected.push(Detection { entry: self.current, after_s: now - onset });
         }
     }
 
-    /// Staff's doing is kept: silence while it is mute, no wind at all while it is deaf.
-    fn watch_staff(&mut self, now: f64) {
-        let speed = self.machine.stage.snapshot().breath.speed;
-        let attracts = self.machine.stage.attracts();
-        for (duty, good) in &mut self.duties {
-            if (duty.from + TAKES_EFFECT_S..duty.until).contains(&now) {
-                *good &= match duty.task {
-                    Task::Mute => self.machine.played().iter().all(|sample| *sample == 0.0),
+    /// Checks the staff tasks: silence while muted, no wind while input is off.
+    fn check_staff(&mut self, now: f64) {
+        let speed = self.kiosk.stage.snapshot().breath.speed;
+        let attracts = self.kiosk.stage.attracts();
+        for CheckedTask { task, good } in &mut self.staff {
+            if (task.from + TAKES_EFFECT_S..task.until).contains(&now) {
+                *good &= match task.task {
+                    Task::Mute => self.kiosk.played().iter().all(|sample| *sample == 0.0),
                     Task::Clean | Task::Unplug => speed == 0.0 || attracts,
                 };
             }
         }
     }
 
-    /// Wind began to rush: is it an answer to somebody?
-    fn wind(&mut self, began: f64) {
+    /// Logs the beginning of wind as a false trigger, unless it responds to an action or belongs to attract mode.
+    fn log_wind(&mut self, began: f64) {
         let near = |entry: &&super::day::Entry| entry.visit.arrives < began + 1.0 && began < entry.visit.leaves + 10.0;
-        let answered =
-            self.day.entries.iter().filter(near).filter(|entry| entry.answered()).any(|entry| {
-                entry.visit.acts().any(|(from, until)| from < began + EARLY_S && began < until + AFTERMATH_S)
-            });
-        let shown = began < self.attracted + AFTERMATH_S;
-        if !answered && !shown {
-            let (since_s, blew) = (since_last_act(&self.day, began), self.blew > began - EARLY_S);
-            self.notes.phantoms.push(Nobody { at_s: began, since_s, blew });
+        let mut entries = self.day.entries.iter().filter(near).filter(|entry| entry.expects_response());
+        let is_response = entries.any(|entry| {
+            entry.visit.action_times().any(|act| act.start < began + EARLY_S && began < act.end + AFTERMATH_S)
+        });
+        let is_attract = began < self.attracted + AFTERMATH_S;
+        if !is_response && !is_attract {
+            let (since_s, blew) = (since_last_action(&self.day, began), self.blew > began - EARLY_S);
+            self.log.false_triggers.push(FalseTrigger { at_s: began, since_s, blew });
         }
     }
 
-    /// Has what is due judged, the pictures up to `picture` being there.
-    fn ask(&mut self, picture: u64) {
-        let due = |moment: &Moment| picture_at(moment.at) + judge::BEFORE as u64 <= picture;
-        while let Some(index) = self.waiting.iter().position(due) {
-            let Moment { entry, at, doing, alone } = self.waiting.swap_remove(index);
-            self.eyes.ask((entry, doing), picture_at(at), alone);
+    /// Requests the scores of all moments that need pictures up to `picture` only.
+    fn request_scores(&mut self, picture: u64) {
+        let due = |moment: &PendingMoment| picture_at(moment.at) + scorer::BEFORE as u64 <= picture;
+        while let Some(index) = self.pending.iter().position(due) {
+            let PendingMoment { key, at, control } = self.pending.swap_remove(index);
+            self.video.request(key, picture_at(at), control);
         }
     }
 
     fn report(self, rehearsal: &Rehearsal) -> Result<Report, RehearsalError> {
-        let Seen { answers, drawn } = self.eyes.seen()?;
-        let shuffled: Vec<_> = answers
-            .iter()
-            .filter_map(|((_, doing), answer)| answer.filter(|_| doing.is_none()))
-            .map(|answer| (answer.contingency, answer.is_answer()))
-            .collect();
-        let firsts = answers.iter().filter(|((_, doing), _)| *doing == Some(0));
-        let judged = firsts.filter_map(|((index, _), answer)| {
+        let Observations { responses, drawn } = self.video.finish()?;
+        let shuffled: Vec<Response> =
+            responses.iter().filter_map(|(key, response)| response.filter(|_| key.action.is_none())).collect();
+        let firsts = responses.iter().filter(|(key, _)| key.action == Some(0));
+        let scored = firsts.filter_map(|(Key { entry: index, .. }, response)| {
             let entry = &self.day.entries[*index];
             let onset = entry.visit.onset()?;
-            let answered = |onset: f64, answer: &Option<Answer>| {
-                answer.is_some_and(|answer| answer.is_answer()) && self.notes.phantoms_before(onset) == 0
+            let responds = |onset: f64, response: &Option<Response>| {
+                response.is_some_and(|response| response.is_visible()) && self.log.false_triggers_before(onset) == 0
             };
-            let at_once = answered(onset, answer);
-            let later = answers.iter().filter(|((entry, _), _)| entry == index).any(|((_, doing), answer)| {
-                doing.is_some_and(|doing| doing > 0 && answered(entry.visit.breaths[doing].onset, answer))
+            let at_once = responds(onset, response);
+            let later = responses.iter().filter(|(key, _)| key.entry == *index).any(|(key, response)| {
+                key.action.is_some_and(|action| action > 0 && responds(entry.visit.breaths[action].onset, response))
             });
             let mut groups = entry.visit.groups();
             groups.extend(entry.after.map(Task::after));
-            groups.extend(self.notes.woke.contains(index).then_some("wakes it from attract mode"));
+            groups.extend(self.log.woke.contains(index).then_some("wakes it from attract mode"));
             let middle = picture_at(onset) as f64;
             let after = |picture: usize| (middle + picture as f64) / FPS as f64 - onset;
-            let judged = Judged {
+            let scored = ScoredVisit {
                 onset_s: onset,
-                since_s: since_last_act(&self.day, onset),
-                work: rehearsal.works[entry.work].id.clone(),
-                above_db: self.notes.above[*index],
-                ear: most_frequent(&self.notes.ear[*index]),
-                heard_after_s: self.notes.heard.iter().find(|(entry, _)| entry == index).map(|(_, after)| *after),
-                changed_after_s: answer.and_then(|a| a.changed).map(after),
-                seen_after_s: answer.and_then(|a| a.seen).map(after),
-                energy: answer.map(|answer| answer.energy),
-                contingency: answer.map(|answer| answer.contingency),
-                phantoms: self.notes.phantoms_before(onset),
+                since_s: since_last_action(&self.day, onset),
+                exhibit: rehearsal.exhibits[entry.exhibit].id.clone(),
+                snr_db: self.log.snr_db[*index],
+                detector: most_frequent(&self.log.detector[*index]),
+                detected_after_s: self.log.detected.iter().find(|d| d.entry == *index).map(|d| d.after_s),
+                changed_after_s: response.and_then(|r| r.changed).map(after),
+                seen_after_s: response.and_then(|r| r.seen).map(after),
+                energy: response.map(|response| response.energy),
+                contingency: response.map(|response| response.contingency),
+                false_triggers: self.log.false_triggers_before(onset),
                 breaths: entry.visit.breaths.len(),
                 at_once,
                 good: at_once || later,
                 missed: None,
                 groups,
             };
-            Some(Judged { missed: judged.miss(), ..judged })
+            Some(ScoredVisit { missed: scored.miss(), ..scored })
         });
-        let staff = self.duties.iter().map(|(duty, good)| StaffCheck {
-            task: duty.task.name(),
-            from_s: duty.from,
+        let staff = self.staff.iter().map(|CheckedTask { task, good }| StaffCheck {
+            task: task.task.name(),
+            from_s: task.from,
             good: *good,
         });
         Ok(Report {
@@ -406,53 +433,53 @@ impl<'a> Course<'a> {
             hours: rehearsal.hours,
             room: rehearsal.room.clone(),
             capsules: rehearsal.capsules,
-            works: rehearsal.works.iter().map(|work| work.id.clone()).collect(),
-            volume_db: self.machine.volume_db(),
+            exhibits: rehearsal.exhibits.iter().map(|exhibit| exhibit.id.clone()).collect(),
+            volume_db: self.kiosk.volume_db(),
             visitors: self.day.entries.len(),
-            headline: Share::default(),
+            headline: VisitShare::default(),
             groups: Default::default(),
-            at_once: Share::default(),
+            at_once: VisitShare::default(),
             groups_at_once: Default::default(),
             missed: Default::default(),
-            changed: Share::default(),
-            seen: Share::default(),
+            changed: VisitShare::default(),
+            seen: VisitShare::default(),
             contingency: None,
             shuffled_contingency: None,
             shuffled_share: None,
             changed_after_s: None,
             staff: staff.collect(),
-            attract_returned: (self.returned, self.attract_asked),
+            attract_returned: (self.attract_returns, self.attract_checks),
             pictures: drawn,
             bars: Vec::new(),
             failures: Vec::new(),
-            visits: judged.collect(),
-            phantoms: self.notes.phantoms.clone(),
+            visits: scored.collect(),
+            false_triggers: self.log.false_triggers.clone(),
         }
         .conclude(&shuffled))
     }
 }
 
-/// How long before `at` somebody last did something, s.
-fn since_last_act(day: &Day, at: f64) -> Option<f64> {
-    let acts = day.entries.iter().flat_map(|entry| entry.visit.acts());
-    let last = acts.map(|(_, until)| until).filter(|until| *until < at).fold(f64::NEG_INFINITY, f64::max);
+/// Time since the last action of any visitor before `at`, s; `None` before the first.
+fn since_last_action(day: &Day, at: f64) -> Option<f64> {
+    let actions = day.entries.iter().flat_map(|entry| entry.visit.action_times());
+    let last = actions.map(|action| action.end).filter(|end| *end < at).fold(f64::NEG_INFINITY, f64::max);
     last.is_finite().then_some(at - last)
 }
 
-/// The most frequent first.
+/// Counts in descending order.
 fn most_frequent(counts: &BTreeMap<String, u32>) -> Vec<(String, u32)> {
-    let mut counts: Vec<_> = counts.iter().map(|(said, count)| (said.clone(), *count)).collect();
+    let mut counts: Vec<_> = counts.iter().map(|(reason, count)| (reason.clone(), *count)).collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     counts
 }
 
-/// Is this the step in which `at` lies?
+/// True in the step that contains the time `at`.
 fn begins(at: f64, now: f64) -> bool {
     let step = 1.0 / STEPS_PER_SECOND as f64;
     (now - step..now).contains(&(at - step))
 }
 
-/// Where one of the plates is in the picture; its middle where there is none.
+/// Place of one of the plates in the picture; the picture's middle where there is none.
 fn place(exhibit: &Exhibit, moment: &Snapshot, which: f64) -> [f64; 2] {
     let view = exhibit.view(ASPECT);
     let plates = exhibit.wind_surfaces.iter().filter_map(|surface| match &surface.shape {
@@ -470,41 +497,41 @@ mod tests {
     use super::*;
     use crate::Crowd;
     use crate::day::Entry;
-    use crate::visitor::{Visit, Way};
+    use crate::visitor::{Intent, Visit};
     use soffio_config::Config;
     use soffio_exhibit as exhibit;
     use soffio_kiosk::venue::site::Site;
     use soffio_math::noise::Random;
 
     #[test]
-    fn whoever_is_not_heard_blows_again_in_the_day_and_each_breath_is_looked_at() {
-        /// A breath of two seconds at most, and its pause, three times over.
+    fn a_visitor_who_is_not_detected_blows_again_and_each_breath_is_scored() {
+        /// Three breaths of two seconds at most, with their pauses.
         const LENGTH_S: f64 = 32.0;
-        /// Nobody is heard from there.
+        /// Distance at which no breath is detected.
         const FAR_M: f64 = 30.0;
-        /// Of the second before and the second after, and of the moment itself.
-        const PICTURES: u64 = 2 * judge::BEFORE as u64 + 1;
-        let folder = exhibit::resolve("steel-fish").expect("a shipped work");
-        let work = Arc::new(exhibit::load(&folder).expect("a good one"));
+        /// Pictures of the second before, the second after, and the moment itself.
+        const PICTURES: u64 = 2 * scorer::BEFORE as u64 + 1;
+        let folder = exhibit::resolve("steel-fish").expect("a shipped exhibit");
+        let exhibit = Arc::new(exhibit::load(&folder).expect("a valid exhibit"));
         let site = Site::new(&Config::default(), 1);
         let (hours, room) = (LENGTH_S / 3600.0, "gallery".into());
         let mut rehearsal =
-            Rehearsal { works: vec![work], site, room, capsules: 2, crowd: Crowd::Made, hours, seed: 1 };
-        let house = open_house(&mut rehearsal).expect("a room");
-        let mut visit = Visit::of(Way::Blows, 1.0, 0.0, &mut Random::new(1));
+            Rehearsal { exhibits: vec![exhibit], site, room, capsules: 2, crowd: Crowd::Made, hours, seed: 1 };
+        let venue = open_venue(&mut rehearsal).expect("a room");
+        let mut visit = Visit::of(Intent::Blows, 1.0, 0.0, &mut Random::new(1));
         visit.breaths.truncate(1);
         visit.breaths[0].shape.distance = FAR_M;
         visit.leaves = visit.breaths[0].end() + PATIENCE_S + 0.5;
-        let entries = vec![Entry { visit, work: 0, during: None, after: None, shuffled: 0.5 * LENGTH_S }];
+        let entries = vec![Entry { visit, exhibit: 0, during: None, after: None, shuffled: 0.5 * LENGTH_S }];
         let day = Day { entries, length: LENGTH_S, ..Day::default() };
-        let mut course = Course::new(&rehearsal, day, house).expect("a driver");
-        (0..(LENGTH_S * STEPS_PER_SECOND as f64) as u64).for_each(|step| course.step(step));
-        let report = course.report(&rehearsal).expect("pictures");
+        let mut run = DayRun::new(&rehearsal, day, venue).expect("a driver");
+        (0..(LENGTH_S * STEPS_PER_SECOND as f64) as u64).for_each(|step| run.step(step));
+        let report = run.report(&rehearsal).expect("pictures");
         let visit = &report.visits[0];
-        assert!(visit.breaths == 3 && !visit.good && visit.heard_after_s.is_none(), "{visit:?}");
+        assert!(visit.breaths == 3 && !visit.good && visit.detected_after_s.is_none(), "{visit:?}");
         assert!(
             report.pictures >= 4 * PICTURES,
-            "{} pictures: of each breath, and of a moment of no meaning",
+            "{} pictures: of each breath, and of a random moment",
             report.pictures
         );
     }

@@ -1,80 +1,90 @@
-//! Who comes, and what each of them does: drawn by a seed.
+//! Synthetic visitors: their intents, breaths, presses and sounds, drawn from a seed.
 //!
-//! Distances, angles and strengths are those of people before a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s,
-//! an adult 6 to 17 m/s, soft as often as hard; most blow at the microphone, some past it.
+//! Distances, angles and strengths are those of people in front of a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s, an
+//! adult 6 to 17 m/s, soft as often as hard. Most blow at the microphone, some off its axis.
+
+use std::ops::Range;
 
 use super::loudness::{loud, scaled};
 use soffio_detector::generate::filter::peaked;
 use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{from_decibels, pow};
-use soffio_soundscape::scenes::{Lips, World};
+use soffio_soundscape::scenes::{Lips, Scenario};
 use soffio_soundscape::{RATE, noises, voices};
 
-/// Lips to microphone, m.
+/// Distance from lips to microphone, m.
 const DISTANCE_M: (f64, f64) = (0.10, 0.45);
-/// Bounds between near, middle and far, m.
+/// Largest near distance, m.
 const NEAR_M: f64 = 0.18;
+/// Largest middle distance, m.
 const FAR_M: f64 = 0.30;
-/// Bounds between straight, aside and far aside, degrees.
+/// Largest angle of a straight breath, degrees.
 const STRAIGHT_DEG: f64 = 12.0;
+/// Largest angle of a breath aside, degrees.
 const ASIDE_DEG: f64 = 30.0;
+/// Largest angle of all, degrees.
 const WIDEST_DEG: f64 = 60.0;
-/// Speed at the lips from soft to hard, m/s: children, adults.
+/// Speed at a child's lips from soft to hard, m/s.
 const CHILD_M_S: (f64, f64) = (3.6, 10.5);
+/// Speed at an adult's lips from soft to hard, m/s.
 const ADULT_M_S: (f64, f64) = (6.0, 17.0);
-/// Bounds between gentle, normal and strong, m/s.
+/// Largest gentle speed, m/s.
 const NORMAL_M_S: f64 = 6.5;
+/// Largest normal speed, m/s.
 const STRONG_M_S: f64 = 11.0;
 
-/// Levels at the microphone, dB of sound: who talks, loudly or not, from 0.3 to 1.5 m, who shouts at it (62, 75 and 82 dB at
-/// a metre are normal, loud and shouted speech: ANSI S3.5-1997), who laughs; steps on a floor.
+/// Level of talk at the microphone from 0.3 to 1.5 m, dB of sound. Normal, loud and shouted speech have 62, 75 and 82 dB at a metre
+/// (ANSI S3.5-1997).
 const TALK_DB: (f64, f64) = (58.0, 76.0);
+/// Level of a shout at the microphone, dB of sound.
 const SHOUT_DB: (f64, f64) = (82.0, 98.0);
+/// Level of laughter, dB of sound.
 const LAUGHTER_DB: (f64, f64) = (70.0, 88.0);
+/// Level of steps on a floor, dB of sound.
 const STEPS_DB: (f64, f64) = (45.0, 65.0);
 
-/// Between two breaths of one mouth, s.
-const APART_S: (f64, f64) = (1.5, 4.0);
-/// Whoever sees nothing move blows again, and gives up after so many breaths.
-const GIVES_UP: usize = 3;
+/// Pause between two breaths of a visitor, s.
+const BREATH_PAUSE_S: (f64, f64) = (1.5, 4.0);
+/// Number of breaths after which a visitor who sees no response gives up.
+const MAX_BREATHS: usize = 3;
 
-/// What somebody comes to do.
+/// Intent of a visitor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum Intent {
     /// Blows.
     Blows,
-    /// Blows while others talk and laugh around.
+    /// Blows while companions talk and laugh.
     InAGroup,
     /// Shouts at the kiosk, then blows.
     Shouts,
-    /// Two blow at once.
+    /// Blows at the same time as another visitor.
     TwoAtOnce,
-    /// Blows, then takes the work by the hand.
+    /// Blows, then grabs a part of the exhibit.
     ThenTouches,
-    /// Cannot blow, or will not: presses and holds.
+    /// Presses and holds, without blowing.
     Holds,
-    /// Looks, talks, walks away.
+    /// Looks, talks and walks away.
     WalksAway,
 }
 
-/// How often each comes.
-const OFTEN: [(Way, f64); 7] = [
-    (Way::Blows, 0.40),
-    (Way::InAGroup, 0.13),
-    (Way::Shouts, 0.11),
-    (Way::TwoAtOnce, 0.08),
-    (Way::ThenTouches, 0.10),
-    (Way::Holds, 0.10),
-    (Way::WalksAway, 0.08),
+/// Probability of each intent.
+const INTENT_PROBABILITY: [(Intent, f64); 7] = [
+    (Intent::Blows, 0.40),
+    (Intent::InAGroup, 0.13),
+    (Intent::Shouts, 0.11),
+    (Intent::TwoAtOnce, 0.08),
+    (Intent::ThenTouches, 0.10),
+    (Intent::Holds, 0.10),
+    (Intent::WalksAway, 0.08),
 ];
 
 /// One breath of the day.
 #[derive(Clone, Copy, Debug)]
 pub struct Breath {
-    /// When the first air reaches the microphone, s of the day.
+    /// Arrival of the first air at the microphone, s of the day.
     pub onset: f64,
-    /// How it is blown; without quiet before or after.
+    /// Shape, without quiet before or after.
     pub shape: BreathShape,
     lips: Lips,
     seed: u64,
@@ -99,180 +109,196 @@ impl Breath {
             angle_deg,
             foam_db: random.range(0.0, 6.0),
             colour: pow(2.0, random.range(-0.8, 1.4)),
-            // The microphone's own corner comes later.
+            // The corner of the microphone is applied later.
             corner_hz: 5.0,
             ..BreathShape::default()
         };
         let lips = Lips::random(angle_deg, random);
         let seed = random.word();
-        let past_deg = Random::new(hash_words(&[seed, 0x7061_7374])).range(0.0, 360.0);
-        Self { onset, shape: BreathShape { past_deg, ..shape }, lips, seed }
+        let azimuth_deg = Random::new(hash_words(&[seed, 0x7061_7374])).range(0.0, 360.0);
+        Self { onset, shape: BreathShape { azimuth_deg, ..shape }, lips, seed }
     }
 
-    /// Another one of the same mouth, a little softer or harder.
+    /// Another breath of the same visitor, a little softer or harder.
     fn again(&self, onset: f64, random: &mut Random) -> Self {
         let strength = (self.shape.strength * random.range(0.7, 1.3)).clamp(CHILD_M_S.0, ADULT_M_S.1);
         let shape = BreathShape { strength, hold: random.range(0.5, 2.5), ..self.shape };
         Self { onset, shape, seed: random.word(), ..*self }
     }
 
-    /// When it is over, s of the day.
+    /// End of the breath, s of the day.
     pub fn end(&self) -> f64 {
         self.onset + self.shape.duration()
     }
 
-    /// What arrives at each of so many capsules, two of them so far apart (m); full scale ±1 at 16 kHz.
-    pub fn sound(&self, capsules: usize, apart: f64) -> Vec<Vec<f64>> {
-        let shape = BreathShape { apart: if capsules > 1 { apart } else { 0.0 }, ..self.shape };
-        let at = |capsule| self.lips.heard(generate::stream(RATE, self.seed, &shape, capsule as u64));
+    /// Sound at each of 1 or 2 capsules with this spacing, m; full scale ±1 at 16 kHz.
+    pub fn sound(&self, capsules: usize, spacing: f64) -> Vec<Vec<f64>> {
+        let shape = BreathShape { spacing: if capsules > 1 { spacing } else { 0.0 }, ..self.shape };
+        let at = |capsule| self.lips.filtered(generate::stream(RATE, self.seed, &shape, capsule as u64));
         (0..capsules).map(at).collect()
     }
 }
 
-/// What a finger or a switch does.
+/// A press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Press {
-    /// A key or a switch blows.
+    /// A key or a switch that blows.
     Key,
-    /// A finger blows from a place of the picture.
+    /// A finger that blows, at a place of the picture.
     Finger([f64; 2]),
-    /// A finger takes what it finds (0 … 1: which part), and pulls it so far, picture heights.
-    Pull(f64, [f64; 2]),
+    /// A finger that grabs a part and pulls it.
+    Pull {
+        /// Part, as a fraction of all parts, 0 … 1.
+        which: f64,
+        /// Displacement, picture heights.
+        by: [f64; 2],
+    },
 }
 
 /// A press over time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pressed {
-    /// s of the day.
+pub struct TimedPress {
+    /// Beginning, s of the day.
     pub from: f64,
-    /// s of the day.
+    /// End, s of the day.
     pub until: f64,
-    /// What is pressed.
+    /// The press.
     pub press: Press,
+}
+
+/// Pointing at the exhibit.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim {
+    /// Time, s of the day.
+    pub at: f64,
+    /// Point in picture coordinates.
+    pub point: [f64; 2],
 }
 
 /// One visit.
 #[derive(Clone, Debug)]
 pub struct Visit {
-    /// What for.
-    pub way: Way,
-    /// Is it a child?
+    /// Intent of the visitor.
+    pub intent: Intent,
+    /// The visitor is a child.
     pub child: bool,
-    /// s of the day.
+    /// Arrival, s of the day.
     pub arrives: f64,
-    /// s of the day.
+    /// Departure, s of the day.
     pub leaves: f64,
-    /// Where the visitor points and when, picture coordinates; most touch nothing before they blow.
-    pub aim: Option<(f64, [f64; 2])>,
-    /// In order.
+    /// Where the visitor points before the first breath; `None` for most, who touch nothing before they blow.
+    pub aim: Option<Aim>,
+    /// Breaths in order.
     pub breaths: Vec<Breath>,
-    /// In order.
-    pub presses: Vec<Pressed>,
+    /// Presses in order.
+    pub presses: Vec<TimedPress>,
     seed: u64,
 }
-
 impl Visit {
-    /// Who comes at a time, s of the day, and does the first thing `ready` seconds later at the earliest.
+    /// A visit that begins at a time, s of the day, with the first action at least `ready` seconds later; its intent is random.
     pub fn new(arrives: f64, ready: f64, random: &mut Random) -> Self {
         let mut left = random.unit();
-        let way = OFTEN.iter().find(|(_, often)| {
-            left -= often;
+        let intent = INTENT_PROBABILITY.iter().find(|(_, probability)| {
+            left -= probability;
             left < 0.0
         });
-        Self::of(way.map_or(Way::Blows, |(way, _)| *way), arrives, ready, random)
+        Self::of(intent.map_or(Intent::Blows, |(intent, _)| *intent), arrives, ready, random)
     }
 
-    /// The same with what they come to do.
-    pub fn of(way: Way, arrives: f64, ready: f64, random: &mut Random) -> Self {
+    /// A visit with a given intent.
+    pub fn of(intent: Intent, arrives: f64, ready: f64, random: &mut Random) -> Self {
         let child = random.unit() < 0.4;
         let place = |random: &mut Random| [random.range(0.3, 0.7), random.range(0.25, 0.6)];
         let first = arrives + ready + random.range(2.0, 7.0);
-        let aim = (random.unit() < 0.4).then(|| (first - random.range(0.8, 2.0), place(random)));
+        let aim = (random.unit() < 0.4).then(|| Aim { at: first - random.range(0.8, 2.0), point: place(random) });
         let (mut breaths, mut presses) = (Vec::new(), Vec::new());
         let mut end = first;
-        match way {
-            Way::WalksAway => {}
-            Way::Holds => {
+        match intent {
+            Intent::WalksAway => {}
+            Intent::Holds => {
                 for _ in 0..1 + (random.unit() * 2.0) as u32 {
                     let from = if presses.is_empty() { first } else { end + random.range(1.0, 4.0) };
                     end = from + random.range(1.0, 3.0);
                     let press = if random.unit() < 0.5 { Press::Key } else { Press::Finger(place(random)) };
-                    presses.push(Pressed { from, until: end, press });
+                    presses.push(TimedPress { from, until: end, press });
                 }
             }
             _ => {
                 let breath = Breath::new(first, child, random);
                 breaths.push(breath);
                 end = breath.end();
-                if way == Way::TwoAtOnce {
-                    let other = Breath::new(first + random.range(0.0, 0.6), random.unit() < 0.4, random);
+                if intent == Intent::TwoAtOnce {
+                    let onset = first + random.range(0.0, 0.6);
+                    let other_child = random.unit() < 0.4;
+                    let other = Breath::new(onset, other_child, random);
                     breaths.push(other);
                     end = end.max(other.end());
                 }
                 for _ in 0..[0, 0, 0, 1, 1, 2][(random.unit() * 6.0) as usize] {
-                    let next = breath.again(end + random.range(APART_S.0, APART_S.1), random);
+                    let next = breath.again(end + random.range(BREATH_PAUSE_S.0, BREATH_PAUSE_S.1), random);
                     end = next.end();
                     breaths.push(next);
                 }
             }
         }
-        if way == Way::ThenTouches {
+        if intent == Intent::ThenTouches {
             let from = end + random.range(0.5, 1.5);
             end = from + random.range(1.0, 2.5);
-            let pull = [random.range(-0.15, 0.15), random.range(-0.1, 0.1)];
-            presses.push(Pressed { from, until: end, press: Press::Pull(random.unit(), pull) });
+            let by = [random.range(-0.15, 0.15), random.range(-0.1, 0.1)];
+            let press = Press::Pull { which: random.unit(), by };
+            presses.push(TimedPress { from, until: end, press });
         }
         let leaves = end + random.range(1.0, 6.0);
-        Self { way, child, arrives, leaves, aim, breaths, presses, seed: random.word() }
+        Self { intent, child, arrives, leaves, aim, breaths, presses, seed: random.word() }
     }
 
-    /// When the visitor first does what the kiosk should answer, s of the day; `None` for who walks away.
+    /// Time of the first action, s of the day; `None` for a visitor who walks away.
     pub fn onset(&self) -> Option<f64> {
         let breath = self.breaths.first().map(|breath| breath.onset);
         breath.or(self.presses.first().map(|pressed| pressed.from))
     }
 
-    /// When the last breath is over, s of the day; `None` for who does not blow.
-    pub fn blown(&self) -> Option<f64> {
+    /// End of the last breath, s of the day; `None` without a breath.
+    pub fn last_breath_end(&self) -> Option<f64> {
         self.breaths.iter().map(Breath::end).reduce(f64::max)
     }
 
-    /// What comes next of whoever has blown and sees nothing move: another breath of the same mouth from the same place. `None`
-    /// for who gives up, or touches then.
-    pub fn tries_again(&self) -> Option<Breath> {
-        let tries = self.breaths.len() < GIVES_UP && self.way != Way::ThenTouches;
+    /// Next breath of a visitor who has blown and sees no response, from the same place. `None` for one who gives up, or touches the
+    /// screen instead.
+    pub fn retry(&self) -> Option<Breath> {
+        let tries = self.breaths.len() < MAX_BREATHS && self.intent != Intent::ThenTouches;
         let first = self.breaths.first().filter(|_| tries)?;
         let mut random = Random::new(hash_words(&[self.seed, 0x7472_6965, self.breaths.len() as u64]));
-        let onset = self.blown()? + random.range(APART_S.0, APART_S.1);
+        let onset = self.last_breath_end()? + random.range(BREATH_PAUSE_S.0, BREATH_PAUSE_S.1);
         Some(first.again(onset, &mut random))
     }
 
-    /// Which of the breaths begin after all earlier ones are over.
-    pub fn separate(&self) -> impl Iterator<Item = (usize, &Breath)> {
+    /// Breaths that begin after the end of all earlier ones, with their indices.
+    pub fn successive_breaths(&self) -> impl Iterator<Item = (usize, &Breath)> {
         let mut end = f64::NEG_INFINITY;
         self.breaths.iter().enumerate().filter(move |(_, breath)| {
-            let apart = breath.onset > end;
+            let is_later = breath.onset > end;
             end = end.max(breath.end());
-            apart
+            is_later
         })
     }
 
-    /// When something is done that the kiosk may answer, s of the day.
-    pub fn acts(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
-        let breaths = self.breaths.iter().map(|breath| (breath.onset, breath.end()));
-        breaths.chain(self.presses.iter().map(|pressed| (pressed.from, pressed.until)))
+    /// Times of each action, s of the day.
+    pub fn action_times(&self) -> impl Iterator<Item = Range<f64>> + '_ {
+        let breaths = self.breaths.iter().map(|breath| breath.onset..breath.end());
+        breaths.chain(self.presses.iter().map(|pressed| pressed.from..pressed.until))
     }
 
-    /// Groups that the visitor belongs to.
+    /// Groups of the visitor, for the report.
     pub fn groups(&self) -> Vec<&'static str> {
-        let mut groups = vec![match self.way {
-            Way::Blows => "alone",
-            Way::InAGroup => "in a group",
-            Way::Shouts => "shouts before",
-            Way::TwoAtOnce => "two at once",
-            Way::ThenTouches => "then touches",
-            Way::Holds => "presses and holds",
-            Way::WalksAway => "walks away",
+        let mut groups = vec![match self.intent {
+            Intent::Blows => "alone",
+            Intent::InAGroup => "in a group",
+            Intent::Shouts => "shouts before",
+            Intent::TwoAtOnce => "two at once",
+            Intent::ThenTouches => "then touches",
+            Intent::Holds => "presses and holds",
+            Intent::WalksAway => "walks away",
         }];
         if let Some(breath) = self.breaths.first() {
             let shape = &breath.shape;
@@ -296,38 +322,38 @@ impl Visit {
         groups
     }
 
-    /// What is heard of the visit beside its breaths: times (s of the day) and sounds at each of so many capsules.
-    pub fn noises(&self, world: &World, capsules: usize) -> Vec<(f64, Vec<Vec<f64>>)> {
+    /// Sounds of the visit other than breaths: their times, s of the day, and the sound at each capsule.
+    pub fn noises(&self, scenario: &Scenario, capsules: usize) -> Vec<(f64, Vec<Vec<f64>>)> {
         let mut random = Random::new(hash_words(&[self.seed, 0x6e6f_6973]));
         let random = &mut random;
         let mut out = Vec::new();
         let stay = self.leaves - self.arrives;
         let mut say = |at: f64, sound: Vec<f64>, (low, high): (f64, f64), random: &mut Random| {
             let gain = loud(random.range(low, high));
-            let heard = world.before_the_kiosk(&sound, capsules);
-            out.push((at, scaled(heard, gain)));
+            let sound = scenario.before_the_kiosk(&sound, capsules);
+            out.push((at, scaled(sound, gain)));
         };
         say(self.arrives, noises::footsteps(1.5, random), STEPS_DB, random);
-        match self.way {
-            Way::InAGroup => {
+        match self.intent {
+            Intent::InAGroup => {
                 for _ in 0..2 + (random.unit() * 3.0) as u32 {
-                    say(self.arrives, world.speech(stay, random), TALK_DB, random);
+                    say(self.arrives, scenario.speech(stay, random), TALK_DB, random);
                 }
                 let at = random.range(self.arrives, self.leaves);
-                say(at, voices::laughter(&world.voice(random), random), LAUGHTER_DB, random);
+                say(at, voices::laughter(&scenario.voice(random), random), LAUGHTER_DB, random);
             }
-            Way::Shouts => {
+            Intent::Shouts => {
                 let onset = self.onset().unwrap_or(self.leaves);
                 let length = random.range(0.5, 1.8);
-                let shout = voices::speech(&world.voice(random).shouting(), length, random);
-                // Air for the breath is taken after it.
+                let shout = voices::speech(&scenario.voice(random).shouting(), length, random);
+                // The visitor breathes in between.
                 say(onset - length - random.range(0.6, 1.5), shout, SHOUT_DB, random);
             }
-            Way::WalksAway => say(self.arrives, world.speech(stay, random), TALK_DB, random),
-            _ if random.unit() < 0.3 => say(self.arrives, world.speech(2.0, random), TALK_DB, random),
+            Intent::WalksAway => say(self.arrives, scenario.speech(stay, random), TALK_DB, random),
+            _ if random.unit() < 0.3 => say(self.arrives, scenario.speech(2.0, random), TALK_DB, random),
             _ => {}
         }
-        // A hand on the glass is heard through the table, not through the room.
+        // A hand on the glass reaches the microphone through the table, not through the room.
         for pressed in self.presses.iter().filter(|pressed| pressed.press != Press::Key) {
             let gain = from_decibels(random.range(-44.0, -22.0));
             let hand: Vec<f64> = peaked(noises::handling(random)).into_iter().map(|x| gain * x).collect();

@@ -1,7 +1,7 @@
-//! What a museum sounds like beside its people: air, steps, doors, wheels, trains, weather, machines, music.
+//! Synthesis of museum noises other than people: air, steps, doors, wheels, trains, weather, machines, music.
 //!
-//! Each sound is dry (the room comes later), of unit RMS for lasting sounds and unit peak for events. All of them are
-//! own models, drawn at random within wide bounds: what is learnt from them must not be one door.
+//! Each sound is dry (the room comes later). Sustained sounds have unit RMS, events a unit peak. All are models with random parameters
+//! within wide bounds, so that training does not learn a single door.
 
 use super::RATE;
 use super::voices::{add, decaying, shaped};
@@ -32,14 +32,14 @@ pub fn air(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(out)
 }
 
-/// Slow swelling of a loudness between `least` and 1, some `hz` times a second.
+/// Slow random modulation between `least` and 1, at about `hz`.
 fn swell(sound: &mut [f64], hz: f64, least: f64, random: &mut Random) {
     let seed = random.word();
     let at = |i: usize| (0.5 + 0.8 * perlin1(hz * i as f64 / R, seed)).clamp(0.0, 1.0);
     sound.iter_mut().enumerate().for_each(|(i, x)| *x *= least + (1.0 - least) * at(i));
 }
 
-/// Ventilation that starts or stops: within 0.1–3 s.
+/// Ventilation that starts or stops within 0.1–3 s.
 pub fn switched_air(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = air(seconds, random);
     let (on, up) = (random.range(0.1, 0.4) * seconds, random.range(0.1, 3.0));
@@ -63,7 +63,7 @@ pub fn footsteps(seconds: f64, random: &mut Random) -> Vec<f64> {
         let body = low_passed(noise.clone(), R, corner, 2);
         let mut step = decaying(normalised(body), 0.002, heel * random.range(0.7, 1.4));
         if metal {
-            // A plate that rings at several modes.
+            // A plate with several modes.
             for k in 1..5 {
                 let mode =
                     resonance(&noise[..200], R, (ring * f64::from(k) * random.range(0.9, 1.3)).min(7000.0), 12.0);
@@ -78,14 +78,14 @@ pub fn footsteps(seconds: f64, random: &mut Random) -> Vec<f64> {
             }
         }
         add(&mut out, at, &step, random.range(0.5, 1.0));
-        // The sole after the heel.
+        // The sole follows the heel.
         add(&mut out, at + random.range(0.06, 0.16), &step, random.range(0.0, 0.5));
         at += random.range(0.85, 1.15) / pace;
     }
     peaked(out)
 }
 
-/// A door: the latch, the slam, the frame that rattles.
+/// A door: the latch, the slam, the rattle of the frame.
 pub fn door(random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(1.6)];
     let slam = low_passed(white(samples(1.2), random), R, random.range(60.0, 500.0), 2);
@@ -100,7 +100,7 @@ pub fn door(random: &mut Random) -> Vec<f64> {
     peaked(out)
 }
 
-/// A trolley, a suitcase, a wheelchair: rumble of the floor, joints of the tiles, things that rattle on it.
+/// A trolley, a suitcase or a wheelchair: rumble of the floor, joints of the tiles, and rattling parts.
 pub fn trolley(seconds: f64, random: &mut Random) -> Vec<f64> {
     let corner = random.range(60.0, 300.0);
     let mut out = normalised(low_passed(white(samples(seconds), random), R, corner, 2));
@@ -118,7 +118,7 @@ pub fn trolley(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(passing(out, random))
 }
 
-/// A train below the floor, a lorry in the street: low rumble that comes and goes over seconds.
+/// A train below the floor or a lorry in the street: low rumble that rises and falls over seconds.
 pub fn train(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = normalised(low_passed(white(samples(seconds), random), R, random.range(25.0, 120.0), 2));
     swell(&mut out, random.range(1.0, 8.0), 0.5, random);
@@ -128,7 +128,7 @@ pub fn train(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(passing(out, random))
 }
 
-/// Comes and goes: 1 / (1 + (t/τ)²) in amplitude.
+/// Envelope of a passing source: amplitude 1 / (1 + (t/τ)²).
 fn passing(mut sound: Vec<f64>, random: &mut Random) -> Vec<f64> {
     let seconds = sound.len() as f64 / R;
     let (middle, near) = (seconds * random.range(0.3, 0.7), seconds * random.range(0.08, 0.4));
@@ -139,7 +139,7 @@ fn passing(mut sound: Vec<f64>, random: &mut Random) -> Vec<f64> {
     sound
 }
 
-/// Thunder, a blast, something heavy that falls on the floor above: rumbles of many bursts.
+/// Thunder, a blast, or a heavy object that falls on the floor above: rumbles of many bursts.
 pub fn thunder(random: &mut Random) -> Vec<f64> {
     let seconds = random.range(1.0, 6.0);
     let mut out = vec![0.0; samples(seconds)];
@@ -157,7 +157,7 @@ pub fn thunder(random: &mut Random) -> Vec<f64> {
     peaked(out)
 }
 
-/// Rain on a skylight, a fountain, the sea: drops and their blur.
+/// Rain on a skylight, a fountain, the sea: drops and their blend.
 pub fn rain(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(seconds)];
     let blur = low_passed(
@@ -182,7 +182,7 @@ pub fn rain(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(out)
 }
 
-/// Motors, compressors, pumps, propellers, vacuum cleaners: a rattle of some pulses a second, its harmonics, and noise.
+/// Motors, compressors, pumps, propellers, vacuum cleaners: pulses at a low rate, their harmonics, and noise.
 pub fn machine(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(seconds)];
     let f = pow(10.0, random.range(1.1, 2.4));
@@ -201,7 +201,7 @@ pub fn machine(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(shaped(out, start.min(0.5), random.range(0.05, 0.3)))
 }
 
-/// Music of another room or of a phone: chords, a bass, a drum.
+/// Music from another room or a phone: chords, a bass, a drum.
 pub fn music(seconds: f64, random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(seconds)];
     let beat = random.range(0.35, 0.8);
@@ -254,7 +254,7 @@ pub fn applause(seconds: f64, random: &mut Random) -> Vec<f64> {
     peaked(out)
 }
 
-/// One clap of two hands: one resonance of the hollow between them, or two.
+/// One clap of two hands: one or two resonances of the hollow between them.
 pub fn clap(centre_hz: f64, random: &mut Random) -> Vec<f64> {
     let noise = white(samples(0.12), random);
     let narrow = random.range(0.3, 1.6);
@@ -267,7 +267,7 @@ pub fn clap(centre_hz: f64, random: &mut Random) -> Vec<f64> {
     peaked(decaying(burst, 0.0005, random.range(0.003, 0.02)))
 }
 
-/// A chair, a shoe, a case dragged over the floor: stick and slip, broad or squeaking.
+/// A chair, a shoe or a case dragged over the floor: stick-slip, broadband or squeaking.
 pub fn scrape(random: &mut Random) -> Vec<f64> {
     let seconds = random.range(0.2, 1.2);
     let f = pow(10.0, random.range(1.6, 2.9));
@@ -282,7 +282,7 @@ pub fn scrape(random: &mut Random) -> Vec<f64> {
     peaked(shaped(body, 0.2, 0.3))
 }
 
-/// Something dropped or set down: knocks, keys, a coin.
+/// A dropped object: knocks, keys, a coin.
 pub fn drop(random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; samples(1.5)];
     let metal = random.unit() < 0.5;

@@ -1,8 +1,8 @@
-//! Work shared among the processors.
+//! Parallel map over all processors.
 
 use std::sync::Mutex;
 
-/// Maps in as many threads as there are processors; results in the order of the items.
+/// Maps items in as many threads as there are processors; the results are in the order of the items.
 pub fn parallel<T: Send, R: Send>(items: Vec<T>, map: impl Fn(T) -> R + Sync) -> Vec<R> {
     let queue = Mutex::new(items.into_iter().enumerate());
     let done = Mutex::new(Vec::new());

@@ -1,12 +1,12 @@
-//! Rooms that sound: impulse responses of shoeboxes by image sources (Allen and Berkley, JASA 65, 1979).
+//! Room acoustics: impulse responses of shoebox rooms by image sources (Allen and Berkley, JASA 65, 1979).
 //!
 //! ```text
 //! h(t) = Σ_images  β^(reflections) / (4π r) · δ(t − r / c),     β = √(1 − α)
 //! ```
 //!
-//! with α the mean absorption of the walls, r the way from the image to the microphone, c the speed of sound. Beyond the
-//! images an exponential tail of noise goes on, of Sabine's reverberation time T = 0.161 V / (α S). A wall takes more of
-//! the high notes: one pole per response, the lower the longer the room rings.
+//! α is the mean absorption of the walls, r the distance from the image to the microphone, and c the speed of sound. After the images
+//! follows an exponential tail of noise with Sabine's reverberation time T = 0.161 V / (α S). Walls absorb more at high frequencies:
+//! each response passes one pole, which is lower for a longer reverberation.
 
 use soffio_fourier::Complex;
 
@@ -18,62 +18,61 @@ use super::RATE;
 
 /// Speed of sound, m/s.
 const SOUND_M_S: f64 = 343.0;
-/// Images are taken up to this way, s.
+/// Travel time up to which images are computed, s.
 const IMAGES_S: f64 = 0.12;
 /// Longest response, s.
 const LONGEST_S: f64 = 0.6;
-/// Below this, sound from everywhere is the same at both capsules: sin(k d)/(k d) is a half at 2.1 kHz where they are 5 cm
-/// apart, Hz.
+/// Frequency below which diffuse sound is the same at both capsules, Hz: sin(k d)/(k d) is 0.5 at 2.1 kHz for a spacing of 5 cm.
 pub const ALIKE_HZ: f64 = 2000.0;
-/// Between two capsules, m.
-pub const APART_M: (f64, f64) = (0.02, 0.06);
+/// Range of the spacing of two capsules, m.
+pub const SPACING_M: (f64, f64) = (0.02, 0.06);
 /// Length of the transform of a convolution.
 const BLOCK: usize = 1 << 15;
 
-/// A shoebox with a microphone in it.
+/// A shoebox room with a microphone.
 #[derive(Clone, Debug)]
 pub struct Room {
     size: DVec3,
     absorption: f64,
     microphone: DVec3,
-    /// From the first capsule to the second, m.
+    /// Vector from the first capsule to the second, m.
     second: DVec3,
     /// Reverberation time, s.
     pub t60: f64,
 }
 
 impl Room {
-    /// A room between a cabinet and a hall.
+    /// A random room, between a cabinet and a hall.
     pub fn random(random: &mut Random) -> Self {
         let size = DVec3::new(random.range(5.0, 25.0), random.range(4.0, 18.0), random.range(2.8, 6.0));
         let absorption = random.range(0.1, 0.45);
         Self::new(size, absorption, random)
     }
 
-    /// A room of this size (m) and mean absorption, with a kiosk somewhere near one of its walls.
+    /// A room of a size (m) and mean absorption, with a kiosk near one of its walls.
     pub fn new(size: DVec3, absorption: f64, random: &mut Random) -> Self {
         let surface = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
         let microphone = size * DVec3::new(random.range(0.2, 0.8), random.range(0.1, 0.4), 0.0)
             + DVec3::new(0.0, 0.0, random.range(0.9, 1.4));
         let turn = random.range(0.0, PI);
-        let apart = random.range(APART_M.0, APART_M.1);
-        let second = DVec3::new(soffio_math::cos(turn), soffio_math::sin(turn), 0.0) * apart;
+        let spacing = random.range(SPACING_M.0, SPACING_M.1);
+        let second = DVec3::new(soffio_math::cos(turn), soffio_math::sin(turn), 0.0) * spacing;
         let t60 = (0.161 * size.x * size.y * size.z / (absorption * surface)).clamp(0.2, 3.0);
         Self { size, absorption, microphone, second, t60 }
     }
 
-    /// Between the two capsules, m.
-    pub fn apart(&self) -> f64 {
+    /// Spacing of the two capsules, m.
+    pub fn spacing(&self) -> f64 {
         self.second.length()
     }
 
-    /// A place where a source may be, at least half a metre from the walls.
+    /// A random place of a source, at least half a metre from the walls.
     pub fn place(&self, random: &mut Random) -> DVec3 {
         let along = |from: f64, random: &mut Random| random.range(0.5, from - 0.5);
         DVec3::new(along(self.size.x, random), along(self.size.y, random), random.range(0.1, 2.0))
     }
 
-    /// A place this far from the microphone (as far as the room allows), somewhere about it.
+    /// A random place at a distance from the microphone, m, within the room.
     pub fn near(&self, distance: f64, random: &mut Random) -> DVec3 {
         let turn = random.range(0.0, 2.0 * PI);
         let at = self.microphone
@@ -81,7 +80,7 @@ impl Room {
         at.clamp(DVec3::splat(0.1), self.size - 0.1)
     }
 
-    /// The response from a place to one of the capsules (0 or 1), of unit energy at the first.
+    /// Impulse response from a place to one of the capsules (0 or 1), with unit energy at the first.
     pub fn response(&self, source: DVec3, capsule: usize, seed: u64) -> Vec<f64> {
         let rate = f64::from(RATE);
         let first = self.images(source, self.microphone, [seed, seed]);
@@ -126,8 +125,8 @@ impl Room {
         response
     }
 
-    /// Goes on where the images end, as loud as they are there. What comes late comes from everywhere: its low end is of the
-    /// first seed, the same at both capsules, its high end of the other.
+    /// Continues a response after the images, at their level. The late sound is diffuse: its low frequencies come from the first seed and
+    /// are the same at both capsules, its high ones from the second.
     fn add_tail(&self, response: &mut [f64], from: usize, [low, high]: [u64; 2]) {
         let rate = f64::from(RATE);
         let level = filter::power(&response[from - from / 4..from]).sqrt();
@@ -142,7 +141,7 @@ impl Room {
     }
 }
 
-/// `sound` as it arrives through `response`, of the same length (overlap and add).
+/// Convolution of `sound` with `response`, cut to the length of the sound (overlap-add).
 pub fn convolved(sound: &[f64], response: &[f64]) -> Vec<f64> {
     let (forward, back) = (soffio_fourier::forward(BLOCK), soffio_fourier::inverse(BLOCK));
     let response = &response[..response.len().min(BLOCK / 2)];
@@ -152,7 +151,7 @@ pub fn convolved(sound: &[f64], response: &[f64]) -> Vec<f64> {
     let step = BLOCK - response.len() + 1;
     let mut out = vec![0.0; sound.len()];
     let mut buffer = vec![Complex::ZERO; BLOCK];
-    // Two pieces a transform: one in the real, one in the imaginary part.
+    // Two pieces per transform: one in the real part, one in the imaginary part.
     for start in (0..sound.len()).step_by(2 * step) {
         let middle = (start + step).min(sound.len());
         let end = (middle + step).min(sound.len());

@@ -1,7 +1,7 @@
-//! Quantiles, rank correlation, and 95 % bounds of what was counted.
+//! Statistics: quantiles, rank correlation, and 95 % bounds of counts.
 //!
-//! A share k of n is bounded by Wilson's interval (JASA 22, 1927), a rate of k events by the exact interval of Poisson
-//! (Garwood 1936), in the approximation of Wilson and Hilferty (1931) for the quantiles of χ².
+//! The bounds of a share k of n are Wilson's interval (JASA 22, 1927). Those of a rate of k events are the exact Poisson interval
+//! (Garwood 1936), with the approximation of Wilson and Hilferty (1931) for the quantiles of χ².
 
 /// Two-sided 95 % of the normal distribution.
 const Z: f64 = 1.959_964;
@@ -15,7 +15,7 @@ pub fn wilson(hits: usize, all: usize) -> (f64, f64) {
     if all == 0 { (0.0, 1.0) } else { ((middle - half).max(0.0), (middle + half).min(1.0)) }
 }
 
-/// Bounds of the mean number of events where `events` were counted.
+/// 95 % bounds of the mean number of events, from the number counted.
 pub fn poisson(events: usize) -> (f64, f64) {
     let bound = |k: f64, z: f64| {
         let root = 1.0 - 1.0 / (9.0 * k) + z / (3.0 * k.sqrt());
@@ -25,7 +25,7 @@ pub fn poisson(events: usize) -> (f64, f64) {
     (if events == 0 { 0.0 } else { bound(k, -Z) }, bound(k + 1.0, Z))
 }
 
-/// Value below which the given part of the values lies.
+/// Quantile of the values at a share, 0 … 1.
 pub fn quantile(values: &[f64], part: f64) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);

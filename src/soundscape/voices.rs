@@ -1,7 +1,7 @@
-//! People as a gallery hears them: talkers, shouting children, laughter, coughs. Source and filter (Fant 1960): pulses
-//! of the glottis or noise of the breath, through formants that move from syllable to syllable.
+//! Synthesis of human sounds by the source–filter model (Fant 1960): talk, shouting children, laughter, coughs. Glottal pulses or breath
+//! noise pass through formants that move from syllable to syllable.
 //!
-//! Everything has unit RMS while it sounds.
+//! Every sound has unit RMS while it lasts.
 
 use soffio_detector::generate::filter::{high_passed, low_passed, normalised, peaked, resonance, white};
 use soffio_math::noise::{Random, hash_words};
@@ -11,23 +11,23 @@ use super::RATE;
 
 const R: f64 = RATE as f64;
 
-/// Who speaks.
+/// Parameters of a speaker.
 #[derive(Clone, Copy, Debug)]
 pub struct Voice {
     /// Mean pitch, Hz.
     pub pitch_hz: f64,
-    /// Formants relative to a man's.
+    /// Formants relative to an adult man's.
     formants: f64,
-    /// Corner of the glottal pulses, Hz: higher is pressed, shouted.
+    /// Corner of the glottal pulses, Hz: higher for a pressed or shouted voice.
     tilt_hz: f64,
-    /// Noise of breath beside the pulses.
+    /// Level of breath noise relative to the pulses.
     breathy: f64,
-    /// Syllables a second.
+    /// Syllables per second.
     pace: f64,
 }
 
 impl Voice {
-    /// Anyone between a deep man and a small child.
+    /// A random speaker, between a deep man and a small child.
     pub fn random(random: &mut Random) -> Self {
         let (pitch, formants) = match (random.unit() * 3.0) as u32 {
             0 => (random.range(80.0, 150.0), random.range(0.95, 1.05)),
@@ -43,13 +43,13 @@ impl Voice {
         }
     }
 
-    /// The same person shouting.
+    /// The same speaker shouting.
     pub fn shouting(self) -> Self {
         Self { pitch_hz: 1.5 * self.pitch_hz, tilt_hz: 1500.0, breathy: 0.05, pace: 0.5 * self.pace, ..self }
     }
 }
 
-/// Speech: phrases of syllables, each a vowel with or without a hiss or a burst before it.
+/// Speech: phrases of syllables, each a vowel, with or without a preceding hiss or burst.
 pub fn speech(voice: &Voice, seconds: f64, random: &mut Random) -> Vec<f64> {
     let count = (seconds * R) as usize;
     let mut out = vec![0.0; count];
@@ -72,7 +72,7 @@ pub fn speech(voice: &Voice, seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(out)
 }
 
-/// A hiss (s, sh, f) or a burst (p, t, k); its length, s.
+/// A hiss (s, sh, f) or a burst (p, t, k), and its length, s.
 fn consonant(out: &mut [f64], at: f64, random: &mut Random) -> f64 {
     let burst = random.unit() < 0.5;
     let length = if burst { random.range(0.01, 0.03) } else { random.range(0.05, 0.14) };
@@ -103,7 +103,7 @@ fn vowel(out: &mut [f64], at: f64, length: f64, pitch: f64, voice: &Voice, rando
     add(out, at, &shaped(normalised(sound), 0.25, 0.4), loud);
 }
 
-/// One pulse a period, of which the corner says how soft it is, and the noise of breath; `glide` is the pitch's change.
+/// Glottal pulses, whose corner sets their softness, and breath noise; `glide` is the change of the pitch.
 fn pulses(count: usize, pitch: f64, glide: f64, voice: &Voice, random: &mut Random) -> Vec<f64> {
     let mut out: Vec<f64> = white(count, random).into_iter().map(|x| voice.breathy * 0.1 * x).collect();
     let mut at = 0.0;
@@ -117,7 +117,7 @@ fn pulses(count: usize, pitch: f64, glide: f64, voice: &Voice, random: &mut Rand
     high_passed(low_passed(out, R, voice.tilt_hz, 2), R, 60.0, 1)
 }
 
-/// Laughter: bursts of ha, four to six a second, falling.
+/// Laughter: bursts of ha, four to six a second, with falling pitch.
 pub fn laughter(voice: &Voice, random: &mut Random) -> Vec<f64> {
     let count = random.range(4.0, 14.0) as u32;
     let step = 1.0 / random.range(3.8, 6.0);
@@ -136,7 +136,7 @@ pub fn laughter(voice: &Voice, random: &mut Random) -> Vec<f64> {
     normalised(out)
 }
 
-/// A cough or a sneeze: an explosion of air of 40–90 ms, a hoarse rest. No stream at the capsule, only its sound.
+/// A cough or a sneeze: an explosion of air of 40–90 ms, then a hoarse rest. Only its sound reaches the capsule, no air.
 pub fn cough(voice: &Voice, random: &mut Random) -> Vec<f64> {
     let blasts = random.range(1.0, 4.0) as u32;
     let mut out = vec![0.0; ((0.35 * f64::from(blasts) + 0.4) * R) as usize];
@@ -155,7 +155,7 @@ pub fn cough(voice: &Voice, random: &mut Random) -> Vec<f64> {
     normalised(out)
 }
 
-/// Whistles, howls, sung notes, telephones, squeaks: a tone that glides, with or without harmonics and breath.
+/// Whistles, howls, sung notes, telephones, squeaks: a gliding tone, with or without harmonics and breath.
 pub fn tone(seconds: f64, random: &mut Random) -> Vec<f64> {
     let f = soffio_math::pow(10.0, random.range(1.9, 3.5));
     let (glide, vibrato, rate) = (random.range(-0.5, 0.5), random.range(0.0, 0.06), random.range(3.0, 8.0));
@@ -173,8 +173,7 @@ pub fn tone(seconds: f64, random: &mut Random) -> Vec<f64> {
     normalised(shaped(sound.collect(), rise, fall))
 }
 
-/// Puffs of p and b of somebody who speaks into the microphone, peaks of 1, as each of two capsules hears them: of other
-/// eddies.
+/// Plosive puffs (p and b) of a speaker at the microphone, with peaks of 1, at each of two capsules: uncorrelated turbulence.
 pub fn plosives(seconds: f64, random: &mut Random) -> [Vec<f64>; 2] {
     let mut out = [0, 1].map(|_| vec![0.0; (seconds * R) as usize]);
     let mut at = random.range(0.1, 0.6);
@@ -193,7 +192,7 @@ pub fn plosives(seconds: f64, random: &mut Random) -> [Vec<f64>; 2] {
     out.map(peaked)
 }
 
-/// Fades in and out over parts of the length (sin²).
+/// Fades in and out over shares of the length (sin²).
 pub fn shaped(mut sound: Vec<f64>, rise: f64, fall: f64) -> Vec<f64> {
     let count = sound.len() as f64;
     for (i, x) in sound.iter_mut().enumerate() {
@@ -205,7 +204,7 @@ pub fn shaped(mut sound: Vec<f64>, rise: f64, fall: f64) -> Vec<f64> {
     sound
 }
 
-/// Rises within `attack` and dies with the time constant `decay`, s.
+/// Rises within `attack`, s, and decays with the time constant `decay`, s.
 pub fn decaying(mut sound: Vec<f64>, attack: f64, decay: f64) -> Vec<f64> {
     let (up, down) = (exp(-1.0 / (attack * R)), exp(-1.0 / (decay * R)));
     let (mut rising, mut falling) = (1.0, 1.0);
@@ -217,7 +216,7 @@ pub fn decaying(mut sound: Vec<f64>, attack: f64, decay: f64) -> Vec<f64> {
     sound
 }
 
-/// Adds `sound` from `at` seconds on, as far as both reach.
+/// Adds `sound` from `at` seconds on, up to the end of the output.
 pub fn add(out: &mut [f64], at: f64, sound: &[f64], gain: f64) {
     let start = ((at * R).max(0.0) as usize).min(out.len());
     out[start..].iter_mut().zip(sound).for_each(|(y, x)| *y += gain * x);

@@ -1,39 +1,39 @@
-//! Trains the breath detector and scores it.
+//! Training and scoring of the breath detector.
 //!
-//! A developer's tool, `soffio-training`, which is not part of the kiosk. It makes scenes (`soffio-soundscape`) or reads
-//! labelled recordings, trains the two small networks of `soffio-detector`, writes their tables as Rust source, and scores
-//! them with 95 % bounds.
+//! This is a developer's tool, `soffio-training`, and not part of the kiosk. It takes synthetic scenes (`soffio-soundscape`) or
+//! labelled recordings, trains the two small networks of `soffio-detector`, and writes their weights as Rust source. It scores
+//! detectors with 95 % bounds.
 //!
-//! It never changes a table by itself: a table that it wrote takes its place by hand, after it was scored. It reads no
-//! device. The same seed trains the same table, bit for bit, on any number of threads.
+//! It never replaces a shipped table: a developer does so by hand, after scoring the new one. It opens no device. The same seed
+//! trains the same table, bit for bit, on any number of threads.
 //!
 //! | module | holds |
 //! |---|---|
 //! | [`recordings`] | a folder of labelled WAVs: `labels.csv` and its columns |
-//! | [`course`] | what is learnt from and what is scored; groups never lie in both |
+//! | [`pipeline`] | training, cross-validation and the validation set; groups never lie in both |
 //! | [`descent`] | stochastic gradient descent with a fixed order of operations |
-//! | [`score`] | what the detector makes of a take; shares, rates and latencies |
+//! | [`score`] | score of the detector on a take; shares, rates and latencies |
 //! | [`tables`] | networks as Rust source, and back |
 //! | [`commands`] | the command line |
 //!
 //! ```
 //! use soffio_detector::BlowSettings;
-//! use soffio_soundscape::EXAM;
-//! use soffio_soundscape::scenes::{Condition, Hearing, World};
-//! use soffio_training::score::{Marks, judge};
+//! use soffio_soundscape::FIRST_VALIDATION_SEED;
+//! use soffio_soundscape::scenes::{Condition, Hearing, Scenario};
+//! use soffio_training::score::{Scores, score_take};
 //!
 //! let hearing = Hearing { gain_db: 0.0, stereo: false };
-//! let take = World::new(EXAM + 1).take(Condition::Cell(0.1, 0.0, false), 0, hearing);
-//! let verdict = judge(&BlowSettings::default(), &take);
-//! assert_eq!(verdict.answers.len(), take.breaths.len());
-//! let mut marks = Marks::default();
-//! marks.add(&take, &verdict);
-//! assert_eq!(marks.heard.1, take.breaths.len());
+//! let take = Scenario::new(FIRST_VALIDATION_SEED + 1).take(Condition::Cell(0.1, 0.0, false), 0, hearing);
+//! let score = score_take(&BlowSettings::default(), &take);
+//! assert_eq!(score.breaths.len(), take.breaths.len());
+//! let mut scores = Scores::default();
+//! scores.add(&take, &score);
+//! assert_eq!(scores.detected.1, take.breaths.len());
 //! ```
 
 pub mod commands;
-pub mod course;
 pub mod descent;
+pub mod pipeline;
 pub mod recordings;
 pub mod score;
 pub mod tables;

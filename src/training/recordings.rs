@@ -1,17 +1,20 @@
-//! A folder of labelled recordings: `labels.csv` and the WAVs it names.
+//! Reader of a folder of labelled recordings: `labels.csv` and the WAVs it names.
 //!
 //! Columns that are read, by name: file, label, expected (blow, not_blow, ambiguous), onset_s, offset_s, level, snr_db,
-//! group. Recordings without a group are a group of their own.
+//! group. A recording without a group is a group of its own.
 
 use std::path::Path;
 
 use soffio_offline::wav;
 use soffio_soundscape::{Breath, Kind, Take};
 
-/// Labels of which none may ever trigger.
+/// Labels of sounds that must never trigger.
 const IMPULSES: [&str; 4] = ["impulse", "plosive_pop", "clap", "handling_thump"];
 
-/// Reads a folder; says which file or line is wrong.
+/// Reads a folder of labelled recordings.
+///
+/// # Errors
+/// Names the file or line that is wrong.
 pub fn read(folder: &Path) -> Result<Vec<Take>, String> {
     let path = folder.join("labels.csv");
     let table = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;

@@ -4,11 +4,11 @@ use soffio_simulation::{ASSEMBLY_DURATION, Command, EventKind, STEPS_PER_SECOND,
 
 use crate::{load, note};
 
-/// Where the farthest part begins, at least, m; and where all are in the end: Δ₀ (1 + Ωt) e^(−Ωt) of half a metre is 0.2 µm.
+/// Smallest initial distance of the farthest part, m.
 const SCATTERED: f64 = 0.01;
+/// Largest final distance of any part, m: Δ₀ (1 + Ωt) e^(−Ωt) of half a metre is 0.2 µm.
 const HOME: f64 = 5e-6;
-/// Parts of one figure belong together long before that: what joints are open by after twelve of their time constants, m;
-/// 13 e^(−12) of half a metre is 0.04 mm.
+/// Largest gap of a joint after twelve of its time constants, long before that, m: 13 e^(−12) of half a metre is 0.04 mm.
 const TOGETHER: f64 = 2e-4;
 
 fn steps(seconds: f64) -> u64 {

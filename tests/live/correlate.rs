@@ -1,17 +1,17 @@
-//! Does anything in these bytes sound like that recording? For the proof that no microphone sample leaves memory.
+//! Search for a recording in any bytes, by normalised cross-correlation; it tests that no microphone sample leaves memory.
 //!
 //!     cargo run --example correlate -- KNOWN.f32 FILE…
 //!
-//! KNOWN is mono noise at 48 kHz, 32-bit floats without a header. Every FILE is read as bytes, or, when its name ends in
-//! `.strace`, as the payloads of the traced writes, in order. The bytes are taken for samples of every usual format at
-//! every alignment, and for numbers written as text, at the usual rates, and held against pieces of the recording:
+//! KNOWN is mono noise at 48 kHz, 32-bit floats without a header. Every FILE is read as bytes, or, where its name ends in
+//! `.strace`, as the payloads of the traced writes, in order. The bytes are read as samples of every usual format, rate and alignment,
+//! and as numbers in text. Each reading is correlated with pieces of the recording:
 //!
 //! ```text
 //! ρ(n) = Σ t_k x_{n+k} / (|t| |x_n…x_{n+K}|)        largest |ρ| over all n
 //! ```
 //!
-//! Noise of K samples correlates with anything else by about 1/√K; over a hundred million places the largest is
-//! √(2 ln 10⁸ / K) = 0.095 at K = 4096. Prints the largest of every file; exit code 1 when one is above the bound.
+//! Noise of K samples correlates with other data by about 1/√K. The maximum over a hundred million places is
+//! √(2 ln 10⁸ / K) = 0.095 at K = 4096. It prints the maximum of every file; the exit code is 1 where one is above the bound.
 
 use std::process::ExitCode;
 
@@ -22,13 +22,13 @@ use std::sync::Arc;
 const PIECE: usize = 4096;
 /// Samples of a transform.
 const BLOCK: usize = 32_768;
-/// Twice what chance gives; a copy gives 1, a copy under as much noise 0.7.
+/// Correlation from which a copy is found: twice the maximum by chance. A copy has 1, a copy with as much noise 0.7.
 const BOUND: f64 = 0.2;
-/// Rates at which a copy might be kept, over 48 kHz.
+/// Possible sample rates of a copy, relative to 48 kHz.
 const RATES: [f64; 4] = [1.0, 44_100.0 / 48_000.0, 1.0 / 3.0, 1.0 / 6.0];
-/// Columns of text that are looked at.
+/// Number of text columns that are read.
 const COLUMNS: usize = 8;
-/// Where the pieces are taken, share of the recording.
+/// Places of the pieces, as shares of the recording.
 const PLACES: [f64; 2] = [0.25, 0.6];
 
 fn main() -> ExitCode {
@@ -54,7 +54,7 @@ fn read(file: &str) -> Vec<u8> {
     std::fs::read(file).unwrap_or_else(|error| panic!("{file}: {error}"))
 }
 
-/// The bytes that a trace of `strace -xx` says were written: all that stands between quotes.
+/// Written bytes in a trace of `strace -xx`: those between quotes.
 fn payloads(trace: &[u8]) -> Vec<u8> {
     let digit = |c: u8| (c as char).to_digit(16).unwrap_or(0) as u8;
     let (mut out, mut at) = (Vec::new(), 0);
@@ -69,13 +69,13 @@ fn payloads(trace: &[u8]) -> Vec<u8> {
     out
 }
 
-/// Bytes as samples of `width` bytes, from `offset`. What is no sound (not finite, far beyond full scale) is silence.
+/// Bytes as samples of `width` bytes, from `offset`. Values that are not finite, or far beyond full scale, become 0.
 fn samples(bytes: &[u8], width: usize, offset: usize, read: impl Fn(&[u8]) -> f64) -> Vec<f64> {
-    let sane = |x: f64| if x.is_finite() && x.abs() <= 10.0 { x } else { 0.0 };
-    bytes.get(offset..).unwrap_or_default().chunks_exact(width).map(|b| sane(read(b))).collect()
+    let valid = |x: f64| if x.is_finite() && x.abs() <= 10.0 { x } else { 0.0 };
+    bytes.get(offset..).unwrap_or_default().chunks_exact(width).map(|b| valid(read(b))).collect()
 }
 
-/// Numbers that are written as text, the one at `column` of each line, scaled to their largest.
+/// Numbers in text, from one column of each line, scaled to their maximum.
 fn numbers(bytes: &[u8], column: usize) -> Vec<f64> {
     let part_of_number = |c: &u8| c.is_ascii_digit() || b"+-.eE".contains(c);
     let number = |word: &[u8]| std::str::from_utf8(word).ok()?.parse::<f64>().ok();
@@ -85,7 +85,7 @@ fn numbers(bytes: &[u8], column: usize) -> Vec<f64> {
     values.iter().map(|x| if x.is_finite() { x / most } else { 0.0 }).collect()
 }
 
-/// Pieces of the recording, ready to be slid along anything.
+/// Pieces of the recording, for correlation with any data.
 struct Matcher {
     forward: Arc<dyn RealToComplex<f64>>,
     back: Arc<dyn ComplexToReal<f64>>,
@@ -113,7 +113,7 @@ impl Matcher {
         Self { forward, back, pieces }
     }
 
-    /// The largest |ρ| of any reading of the bytes, and which it was.
+    /// The largest |ρ| of any reading of the bytes, and the format of that reading.
     fn look(&self, bytes: &[u8]) -> (f64, &'static str) {
         let mut most = (0.0, "at all");
         let mut hold = |name: &'static str, x: Vec<f64>| {
@@ -159,12 +159,12 @@ impl Matcher {
             self.forward.process(&mut block, &mut spectrum).expect("lengths fit");
             for piece in &self.pieces {
                 product.iter_mut().zip(spectrum.iter().zip(piece)).for_each(|(p, (s, t))| *p = s * t);
-                // What rounding leaves there is no signal.
+                // Rounding may leave an imaginary part here.
                 (product[0].im, product[BLOCK / 2].im) = (0.0, 0.0);
                 self.back.process(&mut product, &mut product_time).expect("lengths fit");
                 for n in 0..=hop {
                     let power = energy[n + PIECE] - energy[n];
-                    // Silence, and windows in which rounding of the rest of the block would count, say nothing.
+                    // Skip silence, and windows so quiet that rounding of the rest of the block would count.
                     if power > 1e-9 * energy[BLOCK] {
                         most = most.max(product_time[n].abs() / (BLOCK as f64 * power.sqrt()));
                     }

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The live proof in several rooms side by side: each part in a room of its own; what it says is printed when it ends.
+# The live tests in parallel: each part in an environment of its own, whose output is printed when the part ends.
 #
 #   tests/live/lanes.sh target/ci/soffio [PART …]
 #
-# SOFFIO_LIVE_LANES=3 is how many rooms there are at once: as many as processors, where nobody says; 1 is one part after
-# another. Parts whose bars are seconds or hundredths of them (parts.sh says which) go before the others on the processor.
-# A part that misses a bar beside another room is tried once more in the only room; what was missed is told all the same.
+# SOFFIO_LIVE_LANES=3 sets the number of parallel parts; the default is the number of processors. Parts with short time limits (see
+# parts.sh) have priority on the processor. A part that misses a bar in parallel with others is tried once more alone; the missed
+# bar is reported all the same.
 set -euo pipefail
 here=$(dirname "$(readlink -f "$0")")
 soffio=$(readlink -f "${1:?usage: tests/live/lanes.sh PATH-OF-SOFFIO [PART …]}")
@@ -16,16 +16,16 @@ lanes=${SOFFIO_LIVE_LANES:-$(nproc)}
 
 is_patient() { [[ " ${patient_parts[*]} " == *" $1 "* ]]; }
 
-# One part in its room. A part that hangs is ended before it holds up the others for long.
+# Runs one part. A part that hangs is ended after ten minutes.
 part() {
     local code=0 nice=0
     ! is_patient "$1" || nice=5
     SOFFIO_LIVE_PARTS=$1 nice -n "$nice" timeout --foreground --kill-after=30 600 "$here/run.sh" "$soffio" >"$logs/$1" 2>&1 || code=$?
-    # A part that ends early has missed what it does not tell of.
+    # A part that ends early has missed a bar without reporting it.
     if [ "$code" -ne 0 ] && ! grep -q '^live: BAD' "$logs/$1"; then
         printf 'live: BAD   %-24s ended with exit code %s\n' "$1" "$code" >>"$logs/$1"
     fi
-    # What is tried again has missed nothing yet.
+    # A part that is tried again has missed nothing yet.
     if [ -n "${SOFFIO_LIVE_AGAIN:-}" ] && grep -q '^live: BAD' "$logs/$1"; then
         touch "$logs/$1.again"
         sed -i 's/^live: BAD  /live: AGAIN/; /^live: good/d' "$logs/$1"

@@ -1,6 +1,6 @@
-# Largest turn (degrees) and shift (mm) of each body of a trace between two times, against its pose at the first:
+# Largest rotation (degrees) and displacement (mm) of each body of a trace between two times, relative to its pose at the first:
 #   awk -F, -v from=3 -v to=9 -f turn.awk trace.csv
-# q = conj(a) b is the turn from pose a to pose b; its angle is 2 atan2(|vector part|, |scalar part|), exact near 0.
+# q = conj(a) b is the rotation from pose a to pose b; its angle is 2 atan2(|vector part|, |scalar part|), exact near 0.
 NR == 1 || $1 < from || $1 > to { next }
 !($2 in w) { x[$2] = $3; y[$2] = $4; z[$2] = $5; w[$2] = $6; i[$2] = $7; j[$2] = $8; k[$2] = $9; turn[$2] = shift[$2] = 0 }
 {

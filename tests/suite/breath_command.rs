@@ -1,4 +1,4 @@
-//! WAV in and out, and the summary of `soffio breath`.
+//! Reading and writing of WAVs, and the summary of `soffio breath`.
 
 use soffio::commands::breath;
 use soffio_detector::generate::{self, BreathShape};
@@ -19,7 +19,7 @@ fn every_kind_of_wav_reads_as_the_same_sound() {
         let spec = hound::WavSpec { channels: 2, sample_rate: 22050, bits_per_sample: bits, sample_format: format };
         let mut writer = hound::WavWriter::create(&path, spec).unwrap();
         for x in &samples {
-            // Left carries the sound and a quarter more, right a quarter less: the mean is the sound.
+            // The left channel has 5/4 of the sound, the right one 3/4; their mean is the sound.
             for gain in [1.25, 0.75] {
                 let scaled = f64::from(x * gain) * ((1_i64 << (bits - 1)) - 1) as f64;
                 match format {
@@ -47,7 +47,7 @@ fn a_written_wav_reads_back_to_the_bit() {
     wav::write_float(&path, 1, 48000, &samples).unwrap();
     let back = wav::read(&path).unwrap();
     assert_eq!((back.samples, back.sample_rate), (samples, 48000));
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is left beside the file");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "no other file is left");
 }
 
 #[test]
@@ -74,11 +74,11 @@ fn bad_files_are_refused_with_a_reason() {
     assert!(matches!(wav::write_float(at("no/such/folder.wav"), 1, 48000, &[0.0]), Err(WavError::Write { .. })));
 }
 
-/// The command reads the wind once per 1/240 s; times may differ by that and by one frame of 8 ms.
+/// Largest difference of times, s: one step of 1/240 s and one frame of 8 ms.
 const STEP_S: f64 = 0.013;
 
 #[test]
-fn the_summary_tells_what_the_steps_show() {
+fn the_summary_matches_the_steps() {
     let (first, second) = (BreathShape::default(), BreathShape { strength: 13.0, hold: 0.8, ..BreathShape::default() });
     let mut samples = generate::breath(44100, 2, &first);
     samples.extend(generate::breath(44100, 3, &second));

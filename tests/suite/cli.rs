@@ -298,7 +298,7 @@ fn the_kiosk_without_a_display_plays_a_breath_and_names_its_files() {
 fn devices_and_doctor_speak_json() {
     let desk = Desk::new();
     let devices = desk.soffio(&["devices", "--json"]);
-    // A machine without a sound system is a missing driver, reported in a sentence.
+    // A computer without a sound system lacks a driver, which is reported.
     if devices.code == Some(3) {
         devices.refused(3, &[]);
     } else {
@@ -350,10 +350,10 @@ fn the_shipped_files_are_good() {
 fn a_configuration_is_checked_where_it_stands() {
     let desk = Desk::new();
     desk.write("site.toml", "[breath]\ngian = 2\ndistance_m = 30.0\n");
-    let output = desk.soffio(&["check", "site.toml"]);
-    assert_eq!(output.code, Some(1));
+    let run = desk.soffio(&["check", "site.toml"]);
+    assert_eq!(run.code, Some(1));
     for word in ["site.toml:2:1", "breath.gian", "`gain`", "site.toml:3:14", "30", "2 problems"] {
-        assert!(output.err.contains(word), "{word} is missing: {}", output.err);
+        assert!(run.err.contains(word), "{word} is missing: {}", run.err);
     }
     let json = desk.soffio(&["check", "site.toml", "--json"]);
     let problems: Value = serde_json::from_str(&json.out).expect("JSON");

@@ -36,7 +36,7 @@ fn it_follows_the_configuration() {
     assert!(text.contains("/srv/soffio.prom"), "{text}");
     let usual = report(&Config::default());
     assert!(usual.kept.iter().any(|kept| kept.what.contains("microphone samples")));
-    assert!(usual.kept.iter().any(|kept| kept.place.contains("--record")), "what engineers can start is listed");
+    assert!(usual.kept.iter().any(|kept| kept.place.contains("--record")), "the engineers' recording option is listed");
     assert!(!usual.kept.iter().any(|kept| kept.place.contains(".prom")));
     let bad = desk.soffio(&["privacy", "--config", "nowhere.toml"]);
     assert!(bad.code == Some(1) && bad.err.contains("nowhere.toml"), "{:?} {}", bad.code, bad.err);
@@ -52,5 +52,5 @@ fn what_is_counted_and_what_a_broker_is_told_is_named() {
         let kept = report.kept.iter().find(|kept| kept.place == place).expect("it is kept");
         assert!(kept.what.contains("breaths by their source"), "{}", kept.what);
     }
-    assert!(matches!(&report.sent[..], [message] if message.contains("broker.museum")), "{:?}", report.sent);
+    assert!(matches!(&report.sent[..], [entry] if entry.contains("broker.museum")), "{:?}", report.sent);
 }

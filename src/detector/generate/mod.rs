@@ -1,27 +1,27 @@
-//! Synthetic breaths and noises as a microphone hears them: for tests, for training, and for recordings of the
-//! kiosk's own that attract mode plays. Deterministic: the same seed gives the same samples at a rate.
+//! Synthesis of breaths and noises as a microphone receives them, for tests, training and the recordings of attract mode.
+//! Deterministic: the same seed gives the same samples at a rate.
 //!
-//! A breath that strikes a capsule is heard as two noises (Wuttke, "Microphones and Wind", JAES 1992; Morgan and
-//! Raspet 1992; jet noise after Lighthill):
+//! A breath that strikes a capsule makes two noises (Wuttke, "Microphones and Wind", JAES 1992; Morgan and Raspet 1992; jet noise
+//! after Lighthill):
 //!
 //! ```text
 //! U(t)   = U₀ · e(t) · (1 + g(t))        speed at the lips: envelope e, gusts g (22 % rms, below 14 Hz)
 //! p_turb ~ near · U² · n_low             turbulence at the port: flat below f₁, −12 dB/octave above
 //! p_jet  ~ U^2.5 · n_hiss / (1 + d/25 cm)   hiss of the jet, 0.4–6 kHz
-//! f₁     = 40 Hz + 100 Hz · U₀/17        near = 1 / (1 + (d / 14 cm)²): how much of the stream arrives
-//! near  ×= exp(−(θ / 22°)²) · foam       beside the stream's axis (a jet is some 12° wide) and behind foam
+//! f₁     = 40 Hz + 100 Hz · U₀/17        near = 1 / (1 + (d / 14 cm)²): share of the stream that arrives
+//! near  ×= exp(−(θ / 22°)²) · foam       off the stream's axis (a jet is about 12° wide) and behind foam
 //! ```
 //!
-//! Beside the axis the rumble is gone and the hiss remains: sound goes everywhere, the stream does not. Two capsules
-//! hear the same hiss and each its own turbulence: eddies at the port are millimetres wide. Each has its own d and θ, too: with
-//! the lips at the origin and the middle of the pair at D on z, s apart along x, the stream along a,
+//! Off the axis the hiss remains without the rumble, since sound spreads everywhere and the stream does not. Two capsules receive
+//! the same hiss, and each its own turbulence: eddies at the port are millimetres wide. Each capsule also has its own d and θ. With
+//! the lips at the origin, the middle of the capsules at D on z, their spacing s along x, and the stream along a:
 //!
 //! ```text
 //! x_c = (±s/2, 0, D)      a = (sin θ cos φ, sin θ sin φ, cos θ)      d_c = |x_c|      θ_c = ∠(a, x_c)
 //! ```
 //!
-//! and who blows past one of them from near by blows the less past the other: of 5 cm at 15 cm, 9.5 degrees less. Last comes the
-//! microphone: its high-pass corner, its noise, and soft saturation at full scale.
+//! So a stream that passes one near capsule is nearer to the other: at 5 cm spacing and 15 cm distance by 9.5 degrees. Last comes
+//! the microphone: its high-pass corner, its noise, and soft saturation at full scale.
 
 pub mod filter;
 
@@ -31,33 +31,33 @@ use soffio_math::{DVec3, PI, atan2, cos, exp, from_decibels, pow, sin, tanh};
 
 /// Speed of the hardest blow, m/s; `strength` is relative to it.
 pub const HARDEST_M_S: f64 = 17.0;
-/// From the axis of the stream to where e⁻¹ of its rumble is left, degrees.
+/// Angle from the axis of the stream at which the rumble has fallen to e⁻¹, degrees.
 const JET_ANGLE_DEG: f64 = 22.0;
 
-/// One breath before a microphone.
+/// One breath in front of a microphone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BreathShape {
     /// Quiet before the breath, s.
     pub lead_in: f64,
-    /// Speed at the lips at its height, m/s (gentle 3.8, normal 8.9, strong 13.3, hard 17).
+    /// Peak speed at the lips, m/s (gentle 3.8, normal 8.9, strong 13.3, hard 17).
     pub strength: f64,
-    /// From nothing to the height, s.
+    /// Time from zero to the peak, s.
     pub attack: f64,
-    /// At the height (falling by a quarter, as lungs do), s.
+    /// Time at the peak, s; the speed falls by a quarter, as lungs empty.
     pub hold: f64,
-    /// From there to nothing, s.
+    /// Time from there to zero, s.
     pub release: f64,
     /// Quiet after the breath, s.
     pub lead_out: f64,
-    /// D, lips to microphone, m.
+    /// D, distance from lips to microphone, m.
     pub distance: f64,
-    /// θ, between the axis of the stream and the line to the microphone, degrees.
+    /// θ, angle between the axis of the stream and the line to the microphone, degrees.
     pub angle_deg: f64,
-    /// s, between two capsules that stand side by side before the lips, m; 0 where there is one.
-    pub apart: f64,
-    /// φ, which way the stream goes past them: 0 along their line, towards the second, 90 across it, degrees.
-    pub past_deg: f64,
-    /// What a foam shield takes from the rumble, dB.
+    /// s, spacing of two capsules side by side, m; 0 for one capsule.
+    pub spacing: f64,
+    /// φ, azimuth of the stream, degrees: 0 along the line of the capsules, towards the second one; 90 across it.
+    pub azimuth_deg: f64,
+    /// Attenuation of the rumble by a foam shield, dB.
     pub foam_db: f64,
     /// Corner of the rumble relative to f₁: capsules, grilles and lips differ.
     pub colour: f64,
@@ -78,8 +78,8 @@ impl Default for BreathShape {
             lead_out: 1.0,
             distance: 0.1,
             angle_deg: 0.0,
-            apart: 0.0,
-            past_deg: 0.0,
+            spacing: 0.0,
+            azimuth_deg: 0.0,
             foam_db: 0.0,
             colour: 1.0,
             corner_hz: 60.0,
@@ -99,20 +99,20 @@ impl BreathShape {
         (self.duration() * f64::from(sample_rate)).round().max(0.0) as usize
     }
 
-    /// When the air starts and when it has stopped, s.
+    /// Beginning and end of the air, s.
     pub fn span(&self) -> (f64, f64) {
         (self.lead_in, self.lead_in + self.attack + self.hold + self.release)
     }
 
-    /// d_c (m) and θ_c (degrees) of a capsule: the first is 0, the second 1.
-    pub fn way_to(&self, capsule: u64) -> (f64, f64) {
-        let [angle, past] = [self.angle_deg, self.past_deg].map(f64::to_radians);
-        let axis = DVec3::new(sin(angle) * cos(past), sin(angle) * sin(past), cos(angle));
-        let at = DVec3::new((capsule as f64 - 0.5) * self.apart, 0.0, self.distance);
+    /// Distance d_c (m) and angle θ_c (degrees) of a capsule from the lips; the first capsule is 0, the second 1.
+    pub fn path_to(&self, capsule: u64) -> (f64, f64) {
+        let [angle, azimuth] = [self.angle_deg, self.azimuth_deg].map(f64::to_radians);
+        let axis = DVec3::new(sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), cos(angle));
+        let at = DVec3::new((capsule as f64 - 0.5) * self.spacing, 0.0, self.distance);
         (at.length(), atan2(axis.cross(at).length(), axis.dot(at)).to_degrees())
     }
 
-    /// e(t), 0 … 1: sin² up, a slow fall to three quarters, exponential down.
+    /// Envelope e(t), 0 … 1: sin² up, a slow fall to three quarters, exponential down.
     pub fn envelope(&self, time: f64) -> f64 {
         let t = time - self.lead_in;
         let (hold_end, end) = (self.attack + self.hold, self.attack + self.hold + self.release);
@@ -131,14 +131,14 @@ impl BreathShape {
 
 /// A recording of one breath, mono, full scale ±1.
 pub fn breath(sample_rate: u32, seed: u64, shape: &BreathShape) -> Vec<f32> {
-    let room = gaussian(shape.samples(sample_rate), &mut Random::new(hash_words(&[seed, 5])));
-    let room = normalised(low_passed(room, f64::from(sample_rate), 1500.0, 1));
+    let ambient = gaussian(shape.samples(sample_rate), &mut Random::new(hash_words(&[seed, 5])));
+    let ambient = normalised(low_passed(ambient, f64::from(sample_rate), 1500.0, 1));
     let noise = from_decibels(shape.noise_dbfs);
-    let heard = stream(sample_rate, seed, shape, 0);
-    heard.iter().zip(&room).map(|(x, n)| tanh(x + noise * n) as f32).collect()
+    let pressure = stream(sample_rate, seed, shape, 0);
+    pressure.iter().zip(&ambient).map(|(x, n)| tanh(x + noise * n) as f32).collect()
 }
 
-/// What arrives of a breath at one of several capsules (the first is 0), before noise and full scale.
+/// Sound of a breath at one of several capsules (the first is 0), before noise and saturation.
 pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) -> Vec<f64> {
     let rate = f64::from(sample_rate);
     let count = shape.samples(sample_rate);
@@ -152,7 +152,7 @@ pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) ->
     let hiss = low_passed(high_passed(gaussian(count, &mut stream(4)), rate, 400.0, 2), rate, 1800.0, 1);
     let hiss = normalised(low_passed(hiss, rate, 6000.0_f64.min(0.45 * rate), 1));
 
-    let (distance, angle_deg) = shape.way_to(capsule);
+    let (distance, angle_deg) = shape.path_to(capsule);
     let distance_cm = 100.0 * distance;
     let beside = (angle_deg / JET_ANGLE_DEG) * (angle_deg / JET_ANGLE_DEG);
     let near = exp(-beside) * from_decibels(-shape.foam_db) / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
@@ -231,7 +231,7 @@ pub fn knocks(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f6
     out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
 }
 
-/// Steps and falling things: bursts of low noise that die within 40–150 ms, at the given times (s).
+/// Steps and falling objects: bursts of low noise that decay within 40–150 ms, at the given times (s).
 pub fn thuds(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64) -> Vec<f32> {
     let rate = f64::from(sample_rate);
     let mut random = Random::new(seed);
@@ -248,7 +248,7 @@ pub fn thuds(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64
     out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
 }
 
-/// Puffs of p and b: 25–70 ms of low noise at the given times (s).
+/// Plosive puffs (p and b): 25–70 ms of low noise at the given times (s).
 pub fn plosives(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: f64) -> Vec<f32> {
     let rate = f64::from(sample_rate);
     let mut random = Random::new(seed);
@@ -266,7 +266,7 @@ pub fn plosives(sample_rate: u32, seed: u64, seconds: f64, times: &[f64], peak: 
     out.into_iter().map(|x: f64| x.clamp(-1.0, 1.0) as f32).collect()
 }
 
-/// Adds `other` to `samples`, sample by sample, as far as both reach.
+/// Adds `other` to `samples`, sample by sample, up to the shorter length.
 pub fn mix(samples: &mut [f32], other: &[f32]) {
     samples.iter_mut().zip(other).for_each(|(a, b)| *a += b);
 }
@@ -286,28 +286,28 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_of_two_capsules_has_its_own_way_to_the_lips() {
+    fn each_of_two_capsules_has_its_own_path_to_the_lips() {
         /// Rounding, m and degrees.
         const EXACT: f64 = 1e-9;
-        let blown = |angle_deg, past_deg, apart| BreathShape {
+        let blown = |angle_deg, azimuth_deg, spacing| BreathShape {
             distance: 0.15,
             angle_deg,
-            past_deg,
-            apart,
+            azimuth_deg,
+            spacing,
             ..BreathShape::default()
         };
         let near = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).abs() < EXACT && (a.1 - b.1).abs() < EXACT;
         let aside = (0.025_f64 / 0.15).atan().to_degrees();
         let away = 0.15_f64.hypot(0.025);
         let one = blown(40.0, 70.0, 0.0);
-        assert!(near(one.way_to(0), (0.15, 40.0)) && near(one.way_to(1), (0.15, 40.0)), "{:?}", one.way_to(0));
+        assert!(near(one.path_to(0), (0.15, 40.0)) && near(one.path_to(1), (0.15, 40.0)), "{:?}", one.path_to(0));
         let straight = blown(0.0, 0.0, 0.05);
-        assert!(near(straight.way_to(0), (away, aside)) && near(straight.way_to(1), (away, aside)));
+        assert!(near(straight.path_to(0), (away, aside)) && near(straight.path_to(1), (away, aside)));
         let along = blown(40.0, 0.0, 0.05);
-        assert!(near(along.way_to(0), (away, 40.0 + aside)) && near(along.way_to(1), (away, 40.0 - aside)));
+        assert!(near(along.path_to(0), (away, 40.0 + aside)) && near(along.path_to(1), (away, 40.0 - aside)));
         let across = blown(40.0, 90.0, 0.05);
-        assert!(near(across.way_to(0), across.way_to(1)) && across.way_to(0).1 > 40.0);
-        // e^(−(θ/22°)²) of 30.5 and 49.5 degrees: the second hears the louder rumble by 27 dB, and as much hiss.
+        assert!(near(across.path_to(0), across.path_to(1)) && across.path_to(0).1 > 40.0);
+        // e^(−(θ/22°)²) of 30.5 and 49.5 degrees: the second one's rumble is 27 dB louder, and its hiss equal.
         let [first, second] = [0, 1].map(|capsule| stream(16000, 3, &along, capsule));
         let of = |part: fn(Vec<f64>) -> Vec<f64>, x: &[f64]| filter::power(&part(x.to_vec())).sqrt();
         let rumble = |x: Vec<f64>| low_passed(x, 16000.0, 100.0, 2);

@@ -36,7 +36,7 @@ impl MicrophoneHealth {
         if clipping && !self.clipping {
             self.clips += 1;
             // What is going to be a breath is none yet in its first frames.
-            if !matches!(heard.reason, Reason::Blow | Reason::Waiting) {
+            if !matches!(heard.reason, Reason::Blow | Reason::Pending) {
                 self.clips_without_breath += 1;
                 self.since_clip = Some(0);
             }

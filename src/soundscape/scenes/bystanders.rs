@@ -1,5 +1,4 @@
-//! Scenes in which nobody blows, and the noises that breath is heard in: a museum, a throng, knocks, what is most like
-//! breath.
+//! Scenes without breath, and the noises around a breath: a museum, a crowd, knocks, and the sounds most like breath.
 
 use soffio_detector::generate::filter::{normalised, peaked};
 use soffio_math::from_decibels;
@@ -8,10 +7,10 @@ use soffio_math::noise::Random;
 use super::super::rooms::convolved;
 use super::super::voices;
 use super::super::{Kind, Take, noises};
-use super::{Condition, Dry, Hearing, PLACES, R, World};
+use super::{Condition, Dry, Hearing, PLACES, R, Scenario};
 
-impl World {
-    /// Lasting and sudden sounds of a museum; `busy` scales how many.
+impl Scenario {
+    /// Sustained and sudden sounds of a museum; `busy` scales their number.
     pub(super) fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
@@ -25,7 +24,7 @@ impl World {
             }
         }
         if random.unit() < 0.25 * busy {
-            // Somebody speaks right before the kiosk.
+            // Talk right in front of the kiosk.
             let gain = decibel(random, -40.0, -12.0);
             let from = random.range(0.0, 0.3 * seconds);
             dry.put("talk at the kiosk", PLACES - 1, from, &self.speech(0.6 * seconds, random), gain);
@@ -84,7 +83,7 @@ impl World {
         dry
     }
 
-    /// A noise that goes on evenly: a full hall, a machine, rain, a recording.
+    /// A steady noise: a full hall, a machine, rain, a recording.
     pub(super) fn throng(&self, seconds: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
@@ -113,7 +112,7 @@ impl World {
         dry
     }
 
-    /// Somebody talks at the kiosk and stops shortly before a breath at `onset` (s); a companion may talk all the while.
+    /// Talk at the kiosk that stops shortly before a breath at `onset` (s); a companion may talk all the time.
     pub(super) fn talk_before(&self, onset: f64, seconds: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
         let until = (onset - random.range(0.1, 3.0)).max(0.3);
@@ -131,7 +130,7 @@ impl World {
         dry
     }
 
-    /// Companions of whoever blows talk and laugh before the kiosk all the while, in a museum that may be empty.
+    /// Companions of the visitor who blows: they talk and laugh in front of the kiosk all the time, in a museum that may be empty.
     pub(super) fn companions(&self, seconds: f64, random: &mut Random) -> Dry {
         let busy = if random.unit() < 0.5 { random.range(0.2, 2.0) } else { 0.0 };
         let mut dry = self.museum_sounds(seconds, busy, random);
@@ -146,7 +145,7 @@ impl World {
         dry
     }
 
-    /// Somebody talks right before the kiosk, now and then into its microphone.
+    /// Talk right in front of the kiosk, sometimes into its microphone.
     pub(super) fn talk_on(&self, seconds: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
         let mut at = random.range(0.3, 6.0);
@@ -161,14 +160,13 @@ impl World {
         dry
     }
 
-    /// What each of so many capsules (1 or 2) hears of a museum, before the microphone's own part: full scale ±1 at
-    /// [`RATE`](super::super::RATE).
+    /// Sound of a museum at each of 1 or 2 capsules, before the microphone's own response: full scale ±1 at [`RATE`](super::super::RATE).
     pub fn crowd(&self, seconds: f64, busy: f64, capsules: usize, random: &mut Random) -> Vec<Vec<f64>> {
         let dry = self.museum_sounds(seconds, busy, random);
         self.heard(&dry, capsules > 1, random)
     }
 
-    /// A sound from right before the kiosk, as it arrives at each of so many capsules (1 or 2).
+    /// A sound from right in front of the kiosk, at each of 1 or 2 capsules.
     pub fn before_the_kiosk(&self, sound: &[f64], capsules: usize) -> Vec<Vec<f64>> {
         self.rooms[0].1[PLACES - 1][..capsules].iter().map(|response| convolved(sound, response)).collect()
     }
@@ -217,7 +215,7 @@ impl World {
         let seconds = 20.0;
         let busy = if random.unit() < 0.5 { random.range(0.2, 2.0) } else { 0.0 };
         let mut dry = self.museum_sounds(seconds, busy, random);
-        // Alone or in a row: what comes after others of its kind is easier to tell.
+        // Alone or in a row: a sound after others of its kind is easier to recognise.
         let longest = random.range(1.0, 9.0);
         let mut at = random.range(0.6, 3.0);
         while at < seconds - 1.0 {

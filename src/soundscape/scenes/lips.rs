@@ -1,4 +1,4 @@
-//! How lips and capsule sound together: each pair colours a breath in its own way.
+//! Colour of a breath: each combination of lips and capsule has its own spectrum.
 
 use soffio_detector::generate::filter::{high_passed, low_passed};
 use soffio_math::from_decibels;
@@ -6,18 +6,19 @@ use soffio_math::noise::Random;
 
 use super::R;
 
-/// Rumble and hiss each louder or softer than the formula of [`generate`](soffio_detector::generate).
+/// Gains of rumble and hiss relative to the formula of [`generate`](soffio_detector::generate).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lips {
-    /// Factors of what lies below and above 350 Hz.
+    /// Factor below 350 Hz.
     rumble: f64,
+    /// Factor above 350 Hz.
     hiss: f64,
-    /// Share of 160–350 Hz that comes on top.
+    /// Additional share of 160–350 Hz.
     tilt: f64,
 }
 
 impl Lips {
-    /// Somebody's, before some capsule, beside its axis by so many degrees.
+    /// Random lips in front of a random capsule, off its axis by this many degrees.
     pub fn random(angle_deg: f64, random: &mut Random) -> Self {
         // Straight at a capsule behind a thick grille, there may be hardly any hiss.
         let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
@@ -26,8 +27,8 @@ impl Lips {
         Self { rumble: from_decibels(rumble), hiss: from_decibels(hiss), tilt }
     }
 
-    /// What arrives of `air`, a stream by the formula.
-    pub fn heard(&self, air: Vec<f64>) -> Vec<f64> {
+    /// Applies the gains to a stream of the formula.
+    pub fn filtered(&self, air: Vec<f64>) -> Vec<f64> {
         let low = low_passed(air.clone(), R, 350.0, 2);
         let upper = high_passed(low.clone(), R, 160.0, 1);
         let parts = air.iter().zip(low.iter().zip(&upper));

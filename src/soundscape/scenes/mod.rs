@@ -1,8 +1,8 @@
-//! Labelled scenes: breaths and everything else before a microphone, drawn by a seed.
+//! Labelled scenes: breaths and other sounds in front of a microphone, drawn from a seed.
 //!
-//! A [`World`] is one group of speakers and rooms; training and test use worlds of other seeds, so that they share no
-//! voice, no room and no event. A scene sums dry sounds at places of a room, takes each place through the room's response to
-//! each capsule, adds breath, the bump that comes through the table, and the microphone: corner, noise, gain, rails.
+//! A [`Scenario`] is one group of speakers and rooms. Training and validation use scenarios of different seeds, so they share no
+//! voice, room or event. A scene sums dry sounds at places of a room, and convolves each place with the room's impulse response to
+//! each capsule. It adds breath, bumps through the table, and the microphone: corner, noise, gain, clipping.
 
 mod breaths;
 mod bystanders;
@@ -14,74 +14,74 @@ use soffio_math::{exp, from_decibels, tanh};
 
 use super::rooms::{ALIKE_HZ, Room, convolved};
 use super::voices::{self, Voice, add};
-use super::{Breath, Event, Kind, RATE, Take, noises, own};
+use super::{Breath, Event, Kind, RATE, Take, kiosk_sound, noises};
 pub use lips::Lips;
 
 const R: f64 = RATE as f64;
-/// Voices of a world, and how long each one's speech is before it repeats, s.
+/// Voices of a scenario, and the length of each one's speech before it repeats, s.
 const VOICES: usize = 20;
 const SPEECH_S: f64 = 15.0;
-/// Rooms of a world, and places in each.
+/// Rooms of a scenario, and places in each.
 const ROOMS: usize = 8;
 const PLACES: usize = 5;
-/// By how much two capsules of a kind differ at most: sensitivity, dB; corner, parts.
+/// Largest differences of two capsules of a kind: sensitivity, dB; high-pass corner, relative.
 pub const UNLIKE: (f64, f64) = (1.5, 0.1);
 
-/// What a scene is for.
+/// Condition of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Condition {
-    /// A minute of museum, nobody blows.
+    /// A minute of museum without breath.
     Museum,
     /// Pops, thumps, claps, doors, bumps in a quiet room.
     Impulses,
-    /// What is most like breath, one after another: thunder, doors, hands on the table, coughs, fans. Nobody blows.
+    /// Sounds most like breath, one after another: thunder, doors, hands on the table, coughs, fans.
     Alike,
     /// Breath in a quiet room, of any strength, distance and angle.
     Isolated,
-    /// Breath in a quiet room from one distance (m) and angle (degrees), of a child or an adult.
+    /// Breath in a quiet room from a distance (m) and an angle (degrees), of a child (true) or an adult.
     Cell(f64, f64, bool),
-    /// Breath straight at the microphone in a museum, this far above its noise, dB.
+    /// Breath straight at the microphone in a museum, at a signal-to-noise ratio, dB.
     Noisy(f64),
-    /// Breath past the microphone in a museum, its hiss this far above that of the noise, dB.
+    /// Off-axis breath in a museum, at a signal-to-noise ratio of the hiss, dB.
     Aside(f64),
-    /// The same past two capsules, of which the rumble of their difference stands this far above that of the noise, dB: often
-    /// all that can be heard of it.
+    /// Off-axis breath in a museum with two capsules, at a signal-to-noise ratio of the rumble of their difference, dB. Often nothing else
+    /// of it can be detected.
     Between(f64),
-    /// Breath at the microphone by who has just talked there; a companion may talk on.
+    /// Breath at the microphone right after the visitor has talked there; a companion may continue.
     Spoken,
-    /// Breath by one of a group whose others talk and laugh before the kiosk all the while.
+    /// Breath of a visitor in a group, whose companions talk and laugh in front of the kiosk all the time.
     Companions,
-    /// The kiosk itself at full volume in one of three rooms, nobody blows.
-    OwnVoice(u32),
-    /// The same, and somebody talks right before it; nobody blows.
+    /// The kiosk's own sound at full volume in one of three rooms, without breath.
+    KioskSound(u32),
+    /// The same, with talk right in front of it.
     TalkedOver(u32),
-    /// Breath straight at the microphone, which the kiosk answers in one of three rooms.
+    /// Breath straight at the microphone with the kiosk's response, in one of three rooms.
     Answered(u32),
 }
 
-/// How a scene is heard, beside what is in it.
+/// Recording conditions of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hearing {
-    /// Added to what the microphone would hear, dB.
+    /// Additional gain of the microphone, dB.
     pub gain_db: f64,
     /// Two capsules a few centimetres apart.
     pub stereo: bool,
 }
 
-/// One group of speakers and rooms.
+/// One group of speakers, rooms and recordings.
 #[derive(Debug)]
-pub struct World {
+pub struct Scenario {
     seed: u64,
     voices: Vec<(Voice, Vec<f64>)>,
     rooms: Vec<(Room, Vec<[Vec<f64>; 2]>)>,
-    /// Recorded noises, dry, unit RMS.
+    /// Recorded noises, dry, of unit RMS.
     recorded: Vec<Vec<f64>>,
 }
 
-/// Dry sounds by place, and what they are; place [`PLACES`] is the table itself, which no room colours.
+/// Dry sounds by place, and their events; place [`PLACES`] is the table itself, without a room.
 struct Dry {
     places: Vec<Vec<f64>>,
-    /// What a second capsule hears beside that, of air that moves at each of them by itself.
+    /// Difference of the second capsule from the first, for turbulence.
     beside: Vec<f64>,
     events: Vec<Event>,
 }
@@ -96,14 +96,14 @@ impl Dry {
         self.places[0].len()
     }
 
-    /// Puts a sound at a place, from a time on.
+    /// Adds a sound at a place, from a time on, s.
     fn put(&mut self, what: &'static str, place: usize, at: f64, sound: &[f64], gain: f64) {
         add(&mut self.places[place], at, sound, gain);
         let at = at.max(0.0);
         self.events.push(Event { at, until: at + sound.len() as f64 / R, what, on_table: place == PLACES, gain });
     }
 
-    /// Puts puffs, as each of two capsules hears them.
+    /// Adds puffs at both capsules.
     fn put_puffs(&mut self, at: f64, [first, second]: &[Vec<f64>; 2], gain: f64) {
         self.put("puffs", PLACES, at, first, gain);
         add(&mut self.beside, at, second, gain);
@@ -111,8 +111,8 @@ impl Dry {
     }
 }
 
-impl World {
-    /// The world of a seed.
+impl Scenario {
+    /// The scenario of a seed.
     pub fn new(seed: u64) -> Self {
         let mut random = Random::new(hash_words(&[seed, 0x0076_6f69]));
         let voices = Self::speakers(&mut random);
@@ -120,7 +120,7 @@ impl World {
         Self { seed, voices, rooms, recorded: Vec::new() }
     }
 
-    /// The speakers of a seed, all in one room.
+    /// A scenario of a seed with a single room.
     pub fn in_room(seed: u64, room: Room) -> Self {
         let mut random = Random::new(hash_words(&[seed, 0x0076_6f69]));
         let voices = Self::speakers(&mut random);
@@ -137,7 +137,7 @@ impl World {
         (0..VOICES).map(speaker).collect()
     }
 
-    /// A room with its responses from some places; the last one is a visitor's before the kiosk.
+    /// A room with its responses from several places; the last place is that of a visitor in front of the kiosk.
     fn heard_in(room: Room, random: &mut Random) -> (Room, Vec<[Vec<f64>; 2]>) {
         let response = |place: usize| {
             let at = if place + 1 < PLACES { room.place(random) } else { room.near(random.range(0.3, 1.0), random) };
@@ -148,7 +148,7 @@ impl World {
         (room, responses)
     }
 
-    /// The same with recorded noises, which then take part in scenes of museums.
+    /// Adds recorded noises, which then occur in scenes of museums.
     pub fn with_recordings<'a>(mut self, takes: impl IntoIterator<Item = &'a Take>) -> Self {
         let noises = takes.into_iter().filter(|take| take.kind == Kind::Noise && take.duration() > 2.0);
         self.recorded.extend(
@@ -160,7 +160,7 @@ impl World {
         self
     }
 
-    /// One scene of a condition.
+    /// One scene of a condition; the same index gives the same scene.
     pub fn take(&self, condition: Condition, index: u64, hearing: Hearing) -> Take {
         let mut random = Random::new(hash_words(&[self.seed, condition.number(), index]));
         match condition {
@@ -186,30 +186,30 @@ impl World {
                 let mouth = (random.range(0.1, 0.45), random.range(20.0, 60.0), child);
                 self.blow(condition, index, mouth, hearing, &mut random)
             }
-            Condition::OwnVoice(room) | Condition::TalkedOver(room) => {
-                self.own_voice(condition, index, room, hearing, &mut random)
+            Condition::KioskSound(room) | Condition::TalkedOver(room) => {
+                self.kiosk_sound(condition, index, room, hearing, &mut random)
             }
         }
     }
 
-    /// Between the two capsules of its first room, m.
-    pub fn apart(&self) -> f64 {
-        self.rooms.first().map_or(0.0, |(room, _)| room.apart())
+    /// Spacing of the two capsules in the first room, m.
+    pub fn spacing(&self) -> f64 {
+        self.rooms.first().map_or(0.0, |(room, _)| room.spacing())
     }
 
-    /// A stretch of one of the voices.
+    /// A random part of the speech of a random voice.
     pub fn speech(&self, seconds: f64, random: &mut Random) -> Vec<f64> {
         let track = &self.voices[(random.unit() * VOICES as f64) as usize].1;
         let from = (random.unit() * track.len() as f64) as usize;
         track.iter().cycle().skip(from).take((seconds * R) as usize).copied().collect()
     }
 
-    /// One of the speakers.
+    /// A random voice.
     pub fn voice(&self, random: &mut Random) -> Voice {
         self.voices[(random.unit() * VOICES as f64) as usize].0
     }
 
-    /// What both capsules hear of the dry sounds.
+    /// Sound at each capsule of all dry sounds.
     fn heard(&self, dry: &Dry, stereo: bool, random: &mut Random) -> Vec<Vec<f64>> {
         let (_, responses) = &self.rooms[(random.unit() * self.rooms.len() as f64) as usize];
         let capsule = |capsule: usize| {
@@ -228,7 +228,7 @@ impl World {
         (0..1 + usize::from(stereo)).map(capsule).collect()
     }
 
-    /// Air of the room at this level, dBFS. It comes from everywhere: two capsules hear the same below some hundred hertz only.
+    /// Adds ambient air noise at a level, dB of full scale. It is diffuse: the same at two capsules below some hundred hertz only.
     fn add_air(channels: &mut [Vec<f64>], dbfs: f64, random: &mut Random) {
         let seconds = channels[0].len() as f64 / R;
         let air = noises::air(seconds + 0.001, random);
@@ -239,13 +239,13 @@ impl World {
         }
     }
 
-    /// Adds what the microphone hears of what the kiosk plays in a room, this loud (dB).
-    fn hear_itself(&self, played: &[f64], (room, loud): (u32, f64), channels: &mut [Vec<f64>], random: &mut Random) {
+    /// Adds the echo of the kiosk's output in a room, with a gain, dB.
+    fn add_echo(&self, played: &[f64], (room, loud): (u32, f64), channels: &mut [Vec<f64>], random: &mut Random) {
         let (_, responses) = &self.rooms[room as usize % self.rooms.len()];
-        // Sound card both ways; the loudspeaker stands at the kiosk, as does the microphone.
+        // Delay of the sound card both ways; loudspeaker and microphone both stand at the kiosk.
         let late = (0.02 + 0.035 * f64::from(room)) * R;
         let mut delayed = vec![0.0; late as usize];
-        delayed.extend(own::loudspeaker(played, random));
+        delayed.extend(kiosk_sound::speaker_response(played, random));
         delayed.truncate(played.len());
         let loud = from_decibels(loud);
         for (channel, response) in channels.iter_mut().zip(&responses[PLACES - 1]) {
@@ -253,9 +253,9 @@ impl World {
         }
     }
 
-    fn own_voice(&self, condition: Condition, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
+    fn kiosk_sound(&self, condition: Condition, index: u64, room: u32, hearing: Hearing, random: &mut Random) -> Take {
         let seconds = 60.0;
-        let played = own::kiosk(seconds, &self.speech(seconds, random), random);
+        let played = kiosk_sound::kiosk(seconds, &self.speech(seconds, random), random);
         let mut channels = vec![vec![0.0; played.len()]; 1 + usize::from(hearing.stereo)];
         let mut events = Vec::new();
         if let Condition::TalkedOver(_) = condition {
@@ -265,13 +265,13 @@ impl World {
             events = dry.events;
         }
         let loud = random.range(-8.0, 4.0);
-        self.hear_itself(&played, (room, loud), &mut channels, random);
+        self.add_echo(&played, (room, loud), &mut channels, random);
         Self::add_air(&mut channels, random.range(-72.0, -50.0), random);
         let take = self.finish(condition, index, channels, Kind::Noise, Vec::new(), hearing, random);
         Take { events, played: played.iter().map(|x| *x as f32).collect(), ..take }
     }
 
-    /// The microphone.
+    /// Passes the sound through the microphone: corner, noise, gain and clipping.
     #[allow(clippy::too_many_arguments)] // one call per kind of scene, all of it different
     fn finish(
         &self,
@@ -286,7 +286,7 @@ impl World {
         let corner = [20.0, 40.0, 60.0, 80.0, 110.0][(random.unit() * 5.0) as usize];
         let gain = from_decibels(hearing.gain_db + random.range(-6.0, 6.0));
         let (soft, hiss) = (random.unit() < 0.6, from_decibels(random.range(-86.0, -66.0)));
-        // No capsule is quite like the other.
+        // Two capsules never match exactly.
         let mut unlike = Random::new(hash_words(&[self.seed, condition.number(), index, 2]));
         let mut heard = channels.into_iter().enumerate().map(|(capsule, channel)| {
             let noise = white(channel.len(), random);
@@ -315,7 +315,7 @@ impl World {
     }
 }
 
-/// A recording at [`RATE`], by straight lines between samples that are low-passed first: good enough for a noise.
+/// A recording at [`RATE`], by linear interpolation after a low-pass: accurate enough for noise.
 pub fn resampled(samples: &[f32], sample_rate: u32) -> Vec<f64> {
     let from = f64::from(sample_rate);
     let samples: Vec<f64> = samples.iter().map(|x| f64::from(*x)).collect();
@@ -329,7 +329,7 @@ pub fn resampled(samples: &[f32], sample_rate: u32) -> Vec<f64> {
 }
 
 impl Condition {
-    /// A word for the seed.
+    /// Number of the condition, for seeds.
     fn number(self) -> u64 {
         match self {
             Self::Museum => 1,
@@ -344,14 +344,14 @@ impl Condition {
             Self::Alike => 6,
             Self::Spoken => 8,
             Self::Companions => 10,
-            Self::OwnVoice(room) => 100 + u64::from(room),
+            Self::KioskSound(room) => 100 + u64::from(room),
             Self::TalkedOver(room) => 300 + u64::from(room),
             Self::Answered(room) => 200 + u64::from(room),
         }
     }
 }
 
-/// The same take after a microphone's automatic gain control: the gain follows a leaky power, fast down, slow up.
+/// A take after automatic gain control in the microphone: the gain follows an average power, fast down and slow up.
 pub fn with_gain_control(take: &Take) -> Take {
     let (down, up) = (exp(-1.0 / (0.015 * R)), exp(-1.0 / (0.5 * R)));
     let mut followed = 1e-4;

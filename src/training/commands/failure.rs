@@ -1,6 +1,6 @@
-//! How a command ends.
+//! Outcome of a command, and its error.
 
-/// What went wrong, where, why, and what to do.
+/// Error message: what, where, why, and what to do.
 #[derive(Debug)]
 pub struct Failure(pub(super) String);
 
@@ -10,5 +10,5 @@ impl Failure {
     }
 }
 
-/// What a command returns.
+/// Result of a command.
 pub(super) type Outcome = Result<(), Failure>;

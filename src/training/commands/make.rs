@@ -6,18 +6,18 @@ use std::path::PathBuf;
 
 use soffio_math::noise::{Random, hash_words};
 use soffio_offline::{atomic_file::AtomicFile, wav};
-use soffio_soundscape::scenes::{Condition, Hearing, World};
+use soffio_soundscape::scenes::{Condition, Hearing, Scenario};
 use soffio_soundscape::{Kind, RATE, Take};
 
 use super::failure::{Failure, Outcome};
 use crate::recordings;
 
-/// Make labelled scenes of breath and of museums, as WAVs beside a labels.csv.
+/// Makes labelled scenes of breaths and of museums, as WAVs beside a labels.csv.
 ///
 /// Example: soffio-training make out/scenes --count 50 --seed 7
 #[derive(clap::Args, Debug)]
 pub struct Args {
-    /// Folder, made if it is missing.
+    /// Folder; it is created if it does not exist.
     folder: PathBuf,
     /// Scenes of each kind.
     #[arg(long, default_value_t = 20)]
@@ -37,23 +37,23 @@ pub struct Args {
 pub(super) fn run(args: &Args) -> Outcome {
     std::fs::create_dir_all(&args.folder)
         .map_err(|error| Failure::input(format!("{}: {error}", args.folder.display())))?;
-    let mut world = World::new(args.seed);
+    let mut scenario = Scenario::new(args.seed);
     if let Some(folder) = &args.data {
-        world = world.with_recordings(&recordings::read(folder).map_err(Failure::input)?);
+        scenario = scenario.with_recordings(&recordings::read(folder).map_err(Failure::input)?);
     }
     let kinds = [
         ("museum", Condition::Museum),
         ("impulses", Condition::Impulses),
         ("breath", Condition::Isolated),
         ("breath-in-noise", Condition::Noisy(10.0)),
-        ("own-voice", Condition::OwnVoice((args.seed % 3) as u32)),
+        ("kiosk-sound", Condition::KioskSound((args.seed % 3) as u32)),
     ];
     let mut table = String::from("file,label,expected,onset_s,offset_s,level,snr_db,group,notes\n");
     for (kind, condition) in kinds {
         for index in 0..args.count {
             let mut random = Random::new(hash_words(&[args.seed, index, 6]));
             let hearing = Hearing { gain_db: random.range(-12.0, 12.0), stereo: args.stereo };
-            let take = world.take(condition, index, hearing);
+            let take = scenario.take(condition, index, hearing);
             let file = format!("{kind}-{index:04}.wav");
             write(&take, &args.folder.join(&file))?;
             let _ = writeln!(table, "{}", row(&file, kind, &take));
@@ -68,7 +68,7 @@ pub(super) fn run(args: &Args) -> Outcome {
     Ok(())
 }
 
-/// Channels: the capsules, or one capsule and what the kiosk played.
+/// Writes a take. Channels are the capsules, or one capsule and the kiosk's own output.
 fn write(take: &Take, path: &std::path::Path) -> Outcome {
     let second = take.right.as_ref().or((!take.played.is_empty()).then_some(&take.played));
     let written = match second {

@@ -1,12 +1,12 @@
-//! The tool's command line: a file a command.
+//! The command line of the tool, with one file per command.
 
 use clap::{Parser, Subcommand};
 
 mod day;
+mod detector_from_tables;
 mod failure;
 mod make;
 mod score;
-mod tables_given;
 mod train;
 
 pub use failure::Failure;
@@ -29,6 +29,7 @@ enum Command {
 
 /// Runs the tool on the process's arguments. The exit code is 1 for bad input, 2 for wrong usage.
 pub fn run() -> std::process::ExitCode {
+    warn_of_renamed_options(std::env::args());
     let outcome = match Cli::parse().command {
         Command::Make(args) => make::run(&args),
         Command::Train(args) => train::run(&args),
@@ -40,6 +41,16 @@ pub fn run() -> std::process::ExitCode {
         Err(Failure(message)) => {
             eprintln!("soffio-training: {message}");
             std::process::ExitCode::FAILURE
+        }
+    }
+}
+
+/// Warns of options by their old names; clap reads them as aliases.
+fn warn_of_renamed_options(arguments: impl Iterator<Item = String>) {
+    for argument in arguments {
+        let option = argument.split('=').next().unwrap_or_default();
+        if let Some((old, new)) = train::RENAMED.iter().find(|(old, _)| *old == option) {
+            eprintln!("soffio-training: {old} is now called {new}; the old name will be removed");
         }
     }
 }

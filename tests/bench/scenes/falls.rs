@@ -1,4 +1,4 @@
-//! What falls and comes to rest.
+//! Bodies that fall and come to rest.
 
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, PI, cos, rotation, sin};

@@ -1,5 +1,5 @@
-//! Bounds around an input: an allocator that ends the process at [`MOST_BYTES`], and a folder for what is read as a file.
-//! A panic is libFuzzer's to find, and so is an input that never ends.
+//! Limits for an input: an allocator that ends the process at [`MOST_BYTES`], and a folder for inputs that are read as files.
+//! libFuzzer itself finds panics and endless loops.
 
 use std::alloc::System;
 use std::path::Path;

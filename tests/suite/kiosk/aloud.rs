@@ -1,5 +1,5 @@
-//! Reading aloud, as a visitor does it: by finger and by key, through a program that stands in for the system's and
-//! through the system's own, to the loudspeaker's samples; and the ear that must not take the voice for a breath.
+//! Reading aloud, by finger and by key, with a substitute for the system's speech program and with the system's own, down to the samples
+//! of the output. The detector must not take the voice for a breath.
 
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};

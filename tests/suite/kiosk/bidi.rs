@@ -123,7 +123,7 @@ fn letters_stand_on_the_glass_as_a_reader_from_the_right_expects_them() {
         // Signs of Arabic come out of the font of its letters: they stand after their word all the same.
         assert_eq!(set("كتب، قلم"), "ملق ،بتك");
         assert_eq!(set("كيف؟ نعم"), "معن ؟فيك");
-        // What is read from the left is set as ever.
+        // Left-to-right text is unchanged.
         assert_eq!(set("By 1941 (steel)"), "By 1941 (steel)");
     });
 }

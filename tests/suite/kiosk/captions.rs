@@ -1,5 +1,5 @@
-//! Words for whoever cannot hear or see: every sound of every shipped work is captioned, and every string is there, in
-//! every language that the works are shipped in.
+//! Captions and descriptions for visitors who cannot hear or see: every sound of every shipped exhibit has a caption, and every string
+//! exists in every shipped language.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -73,7 +73,7 @@ fn every_sound_is_captioned_and_every_string_is_there_in_every_shipped_language(
 
 #[test]
 fn what_is_heard_is_another_caption_than_what_another_kind_of_sound_is() {
-    // A visitor who reads "the bell rings" while only the wind blows would be told a lie.
+    // A visitor must not read "the bell rings" while only the wind blows.
     for exhibit in shipped() {
         for a in &exhibit.sounds {
             for b in exhibit.sounds.iter().filter(|b| b.on != a.on) {

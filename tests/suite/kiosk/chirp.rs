@@ -22,7 +22,7 @@ const CLEANER: f32 = 0.1;
 /// Levels come back within this of the filter that was put in, dB: the noise and the reflections within the window.
 const NEAR_DB: f64 = 2.0;
 
-/// What stands between loudspeaker and microphone.
+/// Acoustic path between loudspeaker and microphone.
 #[derive(Clone, Copy)]
 struct Way {
     /// Of everything, dB.

@@ -166,7 +166,7 @@ fn look(glass: &mut Glass, id: &str, languages: &[&str]) -> (Vec<String>, usize)
     (bad, measured)
 }
 
-/// What is written where the kiosk is cleaned, or tells of what it cannot do.
+/// Text on the cleaning screen, and on a kiosk that reports missing devices.
 #[test]
 fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast() {
     const SIZE: (u32, u32) = (1280, 720);

@@ -6,7 +6,7 @@ use soffio_kiosk::visitor::input::Request;
 const WIDE: f64 = 16.0 / 9.0;
 const AFTER: f64 = 1.0;
 
-/// What is pressed while the pointer is at these places (x, and what lies there) for a tenth of a second each.
+/// Presses while the pointer is at these places (x, and the target there) for a tenth of a second each.
 fn pressed(places: &[(f64, Option<Target>)]) -> Vec<(usize, Target)> {
     let mut dwell = Dwell::default();
     let tend = |(i, &(x, on)): (usize, &(f64, Option<Target>))| {

@@ -86,7 +86,7 @@ fn the_order_of_exhibits_changes_in_its_line_with_its_comment() {
     assert!(after.starts_with("show = [\"terry-clock\", \"*\", \"steel-fish\", \"marionette\"] # ids in the order"));
     assert_eq!(before.split_once('#').map(|part| part.1), after.split_once('#').map(|part| part.1));
     assert_eq!(Config::parse(&new, Path::new("kiosk.toml")).expect("good").exhibits.show, wanted);
-    // A list of many lines keeps what stands beside its words.
+    // A list of several lines keeps its comments.
     let many = "[exhibits]\nshow = [\n    \"a\", # the first\n    \"b\",\n]\n";
     let new = with_list(many, "exhibits", "show", &["b".into(), "a".into()]).expect("a list");
     let read: toml::Table = toml::from_str(&new).expect("it parses");

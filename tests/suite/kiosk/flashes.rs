@@ -1,9 +1,9 @@
-//! Nothing flashes: attract mode as it is seen, frame by frame, against the definition of a general flash.
+//! No flashes: frames of attract mode against the definition of a general flash.
 //!
-//! WCAG 2.2: a flash is a pair of opposing changes in relative luminance of a tenth of the greatest or more, where the
-//! darker picture is below 0.80. What counts is what a quarter of any 10 degrees of the visual field does at once: on a
-//! picture as the standard imagines it, 1024 × 768 pixels at arm's length, a block of 341 × 256 pixels, a third of each side.
-//! Three a second are the limit; here there are two (NHM London, multimedia access guidelines).
+//! WCAG 2.2: a flash is a pair of opposing changes in relative luminance of at least a tenth of the maximum, where the darker picture is
+//! below 0.80. It counts if a quarter of any 10 degrees of the visual field changes at once. On the standard's picture of 1024 × 768
+//! pixels at arm's length, 10 degrees are a block of 341 × 256 pixels, a third of each side. The limit is three flashes a second; here it
+//! is two (NHM London, multimedia access guidelines).
 
 use std::collections::VecDeque;
 use std::path::Path;
@@ -131,7 +131,7 @@ fn no_shipped_work_ever_flashes_in_attract_mode() {
     let mut bad = Vec::new();
     for folder in super::captions::folders() {
         let id = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        // One work alone, for whoever mends it.
+        // A single exhibit, for debugging.
         if std::env::var("SOFFIO_WORK").is_ok_and(|only| only != id) {
             continue;
         }

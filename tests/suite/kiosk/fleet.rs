@@ -96,7 +96,7 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
         content: ("pendulum", ""),
     };
     let mut told = text(&frame(Load::default()), &numbers);
-    // Told only once there is something to tell.
+    // These are exported only once they have a value.
     told += "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
     let mut asked = 0;

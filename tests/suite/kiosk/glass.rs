@@ -1,5 +1,5 @@
-//! The glass without a window: pictures of the work with the overlay over them, as the kiosk draws both. Without a Vulkan
-//! driver there is none, and whoever needs it says so and passes.
+//! The screen without a window: pictures of the exhibit with the overlay, as the kiosk draws both. Without a Vulkan driver the tests
+//! that need it report so and pass.
 
 use image::RgbaImage;
 use soffio_kiosk::{egui, egui_wgpu};

@@ -45,7 +45,7 @@ fn side_by_side(player: &mut Player, hearing: &mut Hearing, rate: u32, drift: f6
     [first, second]
 }
 
-/// Of a window of samples: amplitude of the tone, and what is left beside it, root mean square.
+/// Amplitude of a tone in a window of samples, and root mean square of the rest.
 fn tone(samples: &[f32], frequency: f64, rate: u32) -> (f64, f64) {
     let n = samples.len() as f64;
     let turn = |i: usize| 2.0 * PI * frequency * i as f64 / f64::from(rate);

@@ -47,7 +47,7 @@ fn key(name: &str, pressed: bool, repeat: bool) -> Signal {
     Signal::Key(Key { name: name.into(), pressed, repeat, ..Key::default() })
 }
 
-/// What the window tells of a visitor who presses once.
+/// Controls of a visitor who presses once.
 fn told(visitor: &Visitor) -> Controls {
     Controls {
         aim: visitor.aim(),
@@ -60,7 +60,7 @@ fn told(visitor: &Visitor) -> Controls {
     }
 }
 
-/// So many steps with what the visitor does now; what has come up is told once.
+/// Runs a number of steps with the visitor's present actions; each event is reported once.
 fn run(stage: &mut Stage, visitor: &mut Visitor, steps: usize) {
     for _ in 0..steps {
         visitor.lifts().into_iter().for_each(|lift| stage.lift(lift));
@@ -117,7 +117,7 @@ fn a_breath_that_nobody_holds_goes_where_the_visitor_points_and_ends_when_he_lea
     // A held switch would keep the visitor here for ever; this one does not.
     run(&mut stage, &mut visitor, 3 * 240);
     assert!(stage.attracts() && !stage.holds());
-    // And the page ends it too, as the window tells it: no press counts while it is open.
+    // The page ends it too: no press counts while it is open.
     let mut stage = Stage::new(load("steel-fish"), Settings::default(), None, None);
     let latched = Controls { keyed: 1, press_once: true, ..still() };
     stage.step(&latched, None);

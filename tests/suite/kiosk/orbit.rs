@@ -1,5 +1,5 @@
-//! Looking round the work: how far a pull turns the camera, its soft ends and its way home; that breath and hand go where they
-//! are seen to go; that a record is the same run; and on the picture, that the work is seen from where the formula says.
+//! Orbit camera: the angle of a pull, its soft limits and its return. Breath and pointer follow the visible directions, a record replays
+//! the same run, and pictures show the exhibit from the computed viewpoint.
 
 use std::sync::Arc;
 
@@ -179,7 +179,7 @@ fn it_comes_home_when_nobody_is_there_when_it_is_asked_to_and_with_another_work(
 
 #[test]
 fn the_attract_script_leads_it_softly_round_and_home_and_nowhere_where_less_motion_is_wanted() {
-    /// What is left of the way after eight seconds, and after two of the way home, of all of it.
+    /// Remaining share of the path after eight seconds, and of the return path after two.
     const NEARLY: f64 = 0.02;
     /// Fastest turn of two equal lags of 0.8/s, of the way, 1/s: 0.8/e.
     const FASTEST: f64 = 0.8 / std::f64::consts::E;

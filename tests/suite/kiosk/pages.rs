@@ -1,5 +1,5 @@
-//! What lies over the picture, page by page, as a visitor meets it: what can be pressed, how large it is, and that every
-//! page is reached and left by finger and by keys, in each language, on each shape of glass.
+//! The pages over the picture: their targets and the size of these. Every page is reached and left by finger and by keys, in each
+//! language, on each shape of screen.
 
 use std::path::Path;
 use std::sync::{Arc, LazyLock};

@@ -19,8 +19,8 @@ fn shipped(id: &str) -> Arc<Exhibit> {
     Arc::new(exhibit::load(&folder).expect("a shipped exhibit is valid"))
 }
 
-/// A breath, a hand that pulls, motion by places, another exhibit that gathers, a held key, attract mode: the record and
-/// the hashes with which both parts ended.
+/// A breath, a pull, position-based motion, the assembly of another exhibit, a held key, attract mode: the record, and the hashes at the
+/// ends of both parts.
 fn day(path: &Path) -> [String; 2] {
     let (fish, chimes) = (shipped("steel-fish"), shipped("wind-chimes"));
     let breath = WavFeed::from(&soffio_offline::wav::read(fish.folder.join("breaths/normal.wav")).expect("a breath"));

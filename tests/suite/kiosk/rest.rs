@@ -115,7 +115,7 @@ fn a_quarter_of_a_pixel_between_two_pictures_is_what_counts_wherever_it_is() {
 fn the_page_and_every_touch_count_too() {
     let mut rest = Rest::default();
     let still = Signs { still: true, ..Signs::default() };
-    // (time, what is seen, may the next picture wait?)
+    // (time, visible changes, may the next picture wait?)
     let script = [
         (0.0, Signs::default(), false),
         (0.1, still, false),
@@ -137,7 +137,7 @@ fn the_page_and_every_touch_count_too() {
     }
 }
 
-/// Times of the pictures, s, of a window that draws sixty a second, or fewer at rest, of a stage that is told that.
+/// Times of the pictures, s, of a window that draws sixty a second, or fewer at rest, with these controls of the stage.
 fn pictures(stage: &mut Stage, steps: u64, told: impl Fn(u64) -> Controls) -> (Vec<f64>, Option<f64>) {
     const REFRESH: f64 = 1.0 / 60.0;
     let (mut stillness, mut rest) = (Stillness::default(), Rest::default());

@@ -1,4 +1,4 @@
-//! What the kiosk does in a step: who blows, who takes by the hand, what moves the exhibit, and what staff are told.
+//! A step of the kiosk: breaths, grabs, the motion of the exhibit, and reports for staff.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -60,7 +60,7 @@ fn whoever_wakes_the_work_blows_at_once_where_any_breath_goes() {
     let script = Some([0.27, 0.21]);
     let mut waits = Simulation::new(steel_fish(), Settings::default());
     (0..240).for_each(|_| waits.step(&StepInput { pointer: script, ..StepInput::default() }));
-    // The kiosk knows of a breath a step after the ear: the script's aim lasts so long.
+    // The kiosk knows of a breath one step after the detector; the script's aim lasts until then.
     let goes = |late: bool| {
         let mut woken = waits.clone();
         for step in 0..3 {
@@ -90,7 +90,7 @@ fn no_script_lets_a_work_jump_that_comes_to_rest_by_itself() {
 
 #[test]
 fn the_ear_listens_on_while_another_work_comes_and_while_nobody_is_heard() {
-    /// A new ear hears nothing so long, steps.
+    /// Time in which a new detector detects nothing, steps.
     const SETTLES: usize = 60;
     let chimes = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/wind-chimes");
     let chimes = Arc::new(exhibit::load(&chimes).expect("the shipped exhibit is valid"));

@@ -1,4 +1,4 @@
-//! Contact sound: small scenes in which something strikes, scrapes, rolls, lies or chatters, and what is heard of it.
+//! Contact sound: small scenes in which bodies strike, scrape, roll, rest or chatter, and their sounds.
 
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ fn load(scene: &Scene, sidecar: &str) -> Arc<Exhibit> {
     Arc::new(exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{sidecar}\n{}", report.to_text())))
 }
 
-/// What is heard of a scene.
+/// Sounds of a scene.
 #[derive(Default)]
 struct Heard {
     strikes: Vec<Strike>,
@@ -169,7 +169,7 @@ fn what_lies_still_is_silent_and_says_nothing() {
     assert!(heard.level(0.0, 0.3) > -50.0, "{} dBFS as it falls", heard.level(0.0, 0.3));
     assert!(heard.level(3.5, 4.0) < SILENT, "{} dBFS", heard.level(3.5, 4.0));
     assert!(heard.slides.is_empty(), "{:?}", heard.slides);
-    // Both bodies are damped by what lies there, with the weight that lies.
+    // Both bodies are damped by the resting contact, in proportion to its force.
     for instrument in [0, 1] {
         let last = heard.touches.iter().rfind(|touch| touch.instrument == instrument).expect("it lies");
         assert!((f64::from(last.resistance) / (RUBS.0 * 0.1 * G) - 1.0).abs() < RUBS.1, "{last:?}");
@@ -315,14 +315,14 @@ fn contacts_sound_the_same_again_and_ask_for_no_memory() {
         let mut simulation = Simulation::new(exhibit, Settings::default());
         // What is asked for once, at the start.
         (0..20).for_each(|_| simulation.step(&StepInput::default()));
-        let mut told = 0;
+        let mut sounds = 0;
         assert_no_alloc(|| {
             for _ in 0..400 {
                 simulation.step(&StepInput::default());
-                told += simulation.sounds().len();
+                sounds += simulation.sounds().len();
             }
         });
-        assert!(told > 400);
+        assert!(sounds > 400);
     }
 }
 
@@ -432,8 +432,8 @@ fn a_timbre_that_the_motion_does_not_play_is_refused() {
 
 #[test]
 fn wires_hear_what_blows_across_them() {
-    // Three wires at right angles: the squares of their sines with any wind are 2 together. Each wire is told of changes
-    // above 0.01 of the wind, so a share s that it was told is off by δ ≤ 0.01, and its square by 2 s δ + δ². With Σ s² = 2
+    // Three wires at right angles: the squares of their sines with any wind are 2 together. Each wire is updated after changes
+    // above 0.01 of the wind, so its share s is off by δ ≤ 0.01, and its square by 2 s δ + δ². With Σ s² = 2
     // the sum of three shares is √6 at most: 2·√6·0.01 + 3·0.01² = 0.0493.
     const TOLD: f64 = 0.0493;
     let mut scene = Scene::default();

@@ -1,4 +1,4 @@
-//! Aim, and what is seen of it: the ring, the meter, and dust that the wind carries.
+//! Aim and its visible signs: the ring, the meter, and dust that the wind carries.
 
 use std::sync::Arc;
 

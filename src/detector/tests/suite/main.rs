@@ -1,10 +1,10 @@
-//! The blow detector on generated sounds: what must hold for any microphone, and the kiosk's own output.
+//! The blow detector on generated sounds: requirements for any microphone, and for the kiosk's own output.
 
 use assert_no_alloc::AllocDisabler;
 
 mod breaths;
-mod latch;
-mod own_voice;
+mod echo;
+mod timeout;
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;

@@ -1,4 +1,4 @@
-//! The training tool: what it scores, and what it says to wrong input.
+//! The training tool: its scores, and its messages on wrong input.
 
 mod scores;
 mod small_set;

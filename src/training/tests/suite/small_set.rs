@@ -1,14 +1,13 @@
-//! The small set of labelled clips in `tests/cases/breath`, which the scores use by default: how it is made, and that it is
-//! what this makes.
+//! Synthesis of the small set of labelled clips in `tests/cases/breath`, which the scores use by default, and a check of the files.
 
 use std::path::{Path, PathBuf};
 
 use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::Random;
-use soffio_soundscape::scenes::{Condition, Hearing, World};
-use soffio_soundscape::{EXAM, RATE, Take};
+use soffio_soundscape::scenes::{Condition, Hearing, Scenario};
+use soffio_soundscape::{FIRST_VALIDATION_SEED, RATE, Take};
 
-/// A clip: its row of `labels.csv` without the file's length, and its samples.
+/// One clip: its row of `labels.csv` without the file's length, and its samples.
 struct Clip {
     file: String,
     label: &'static str,
@@ -41,7 +40,7 @@ fn blow(file: String, seed: u64, shape: &BreathShape) -> Clip {
     }
 }
 
-/// No breath: the sound over quiet pink noise.
+/// A clip without breath: the sound over quiet pink noise.
 fn quiet(label: &'static str, seed: u64, sound: &[f32]) -> Clip {
     let mut samples = generate::pink_noise(RATE, 400 + seed, sound.len() as f64 / f64::from(RATE), -60.0);
     generate::mix(&mut samples, sound);
@@ -58,25 +57,25 @@ fn quiet(label: &'static str, seed: u64, sound: &[f32]) -> Clip {
     }
 }
 
-/// Part of a made scene, s.
+/// Part of a synthetic scene, from a time, s, and of a length, s.
 fn cut(take: &Take, from: f64, seconds: f64) -> Vec<f32> {
     let at = |t: f64| ((t.max(0.0) * f64::from(RATE)) as usize).min(take.left.len());
     take.left[at(from)..at(from + seconds)].to_vec()
 }
 
 fn clips() -> Vec<Clip> {
-    /// Seed of the world of the scenes: one that nothing is learnt from and no other test meets.
-    const WORLD: u64 = EXAM + 2026;
+    /// Seed of the scenes' scenario, which neither training nor another test uses.
+    const SEED: u64 = FIRST_VALIDATION_SEED + 2026;
     let hearing = Hearing { gain_db: 0.0, stereo: false };
-    let world = World::new(WORLD);
+    let scenario = Scenario::new(SEED);
     let mut clips = Vec::new();
-    // One visitor, ever more strongly.
+    // One visitor at increasing strength.
     for (step, strength) in [4.5, 6.0, 8.0, 10.5, 13.5, 17.0].into_iter().enumerate() {
         let shape = BreathShape { strength, lead_out: 0.6, ..BreathShape::default() };
         let clip = blow(format!("ladder-{step}.wav"), 900, &shape);
         clips.push(Clip { level: Some(strength), group: "ladder-1".into(), ..clip });
     }
-    // Others: near and far, straight and aside, in quiet and less quiet rooms.
+    // Other visitors: near and far, on and off the axis, in quiet and less quiet rooms.
     let mut random = Random::new(2026);
     for seed in 0..8 {
         let shape = BreathShape {
@@ -93,7 +92,7 @@ fn clips() -> Vec<Clip> {
     }
     for index in 0..4 {
         const SNR_DB: f64 = 5.0;
-        let take = world.take(Condition::Noisy(SNR_DB), index, hearing);
+        let take = scenario.take(Condition::Noisy(SNR_DB), index, hearing);
         let breath = take.breaths[0];
         let from = (breath.onset - 1.5).max(0.0);
         clips.push(Clip {
@@ -109,7 +108,7 @@ fn clips() -> Vec<Clip> {
         });
     }
     for index in 0..2 {
-        let take = world.take(Condition::Museum, index, hearing);
+        let take = scenario.take(Condition::Museum, index, hearing);
         let clip = quiet("museum", index, &[]);
         clips.push(Clip { samples: cut(&take, 20.0, 8.0), notes: "voices and steps in a made museum".into(), ..clip });
     }
@@ -138,7 +137,7 @@ fn wav(samples: &[f32]) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// All files of the set but its README.
+/// All files of the set except its README.
 fn files() -> Vec<(String, Vec<u8>)> {
     let number = |x: Option<f64>| x.map_or(String::new(), |x| format!("{x:.3}"));
     let clips = clips();
@@ -171,10 +170,10 @@ fn files() -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn the_small_set_is_what_it_is_made_by() {
+fn the_small_set_is_up_to_date() {
     for (name, bytes) in files() {
         let stored = std::fs::read(folder().join(&name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert!(stored == bytes, "{name} is not what this makes: run `write_the_small_set`, and score it anew");
+        assert!(stored == bytes, "{name} differs from the synthesis: run `write_the_small_set`, and score it again");
     }
 }
 

@@ -1,15 +1,15 @@
-//! The tool as its users meet it: the real binary, its exit codes, its words, the files it leaves.
+//! The tool's binary: exit codes, messages and written files.
 
 use std::path::PathBuf;
 use std::process::Command;
 
-/// A table has four places: what it says is off by half of the last one at most, and by what a sum rounds.
+/// Largest rounding error of a table with four decimal places, and of a sum.
 const FOUR_PLACES: f64 = 0.500_1e-4;
 
-/// A folder of its own for one test.
+/// Temporary folder of one test.
 struct Desk(tempfile::TempDir);
 
-/// What a run of the tool left.
+/// Result of a run of the tool.
 struct Run {
     code: Option<i32>,
     out: String,
@@ -43,7 +43,7 @@ impl Run {
         assert_eq!(self.code, Some(0), "{}", self.err);
     }
 
-    /// Ended with `code` and nothing on stdout, and stderr has all these words.
+    /// Checks that it ended with `code`, an empty stdout, and all these words on stderr.
     #[track_caller]
     fn refused(&self, code: i32, words: &[&str]) {
         assert_eq!((self.code, self.out.as_str()), (Some(code), ""), "{}", self.err);
@@ -55,7 +55,7 @@ impl Run {
 
 /// The shipped table of two capsules, and one whose weights are all zero.
 fn tables_of_two_capsules() -> (String, String) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../detector/pair_table.rs");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../detector/dual_mic_table.rs");
     let shipped = std::fs::read_to_string(path).expect("a table");
     let (scales, weights) = shipped.split_once("weights:").expect("weights");
     let nothing: String = weights.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
@@ -64,24 +64,24 @@ fn tables_of_two_capsules() -> (String, String) {
 }
 
 #[test]
-fn a_table_of_the_ear_is_marked_before_it_takes_its_place() {
+fn a_table_is_scored_before_it_replaces_the_shipped_one() {
     let desk = Desk::new();
     let score = |tables: &[&str]| {
-        let asked = ["score", "--generated", "--stereo", "--only", "between two capsules", "--hours", "0.002"];
+        let options = ["score", "--generated", "--stereo", "--only", "between two capsules", "--hours", "0.002"];
         let tables = tables.iter().flat_map(|table| ["--table", table]);
-        desk.run(&asked.into_iter().chain(tables).collect::<Vec<_>>())
+        desk.run(&options.into_iter().chain(tables).collect::<Vec<_>>())
     };
     let (shipped, blank) = tables_of_two_capsules();
     desk.write("shipped.rs", &shipped);
     let (own, given) = (score(&[]), score(&["shipped.rs"]));
     own.done();
     given.done();
-    assert_eq!(own.out, given.out, "the same table, the same marks");
-    // Weights of nothing at all: it holds nothing to be likely, and hears nothing.
-    desk.write("deaf.rs", blank);
-    let deaf = score(&["deaf.rs"]);
-    deaf.done();
-    assert!(deaf.out != own.out && deaf.out.contains("  0.0 % ["), "{}", deaf.out);
+    assert_eq!(own.out, given.out, "the same table, the same scores");
+    // Weights of 0: no frame is likely, so no breath is detected.
+    desk.write("zero.rs", blank);
+    let zero = score(&["zero.rs"]);
+    zero.done();
+    assert!(zero.out != own.out && zero.out.contains("  0.0 % ["), "{}", zero.out);
     desk.write("cut.rs", &shipped[..shipped.len() / 2]);
     score(&["cut.rs"]).refused(1, &["cut.rs", "finite numbers, this one"]);
     desk.write("words.rs", "not a table");
@@ -90,39 +90,40 @@ fn a_table_of_the_ear_is_marked_before_it_takes_its_place() {
 }
 
 #[test]
-fn a_course_goes_on_with_the_mean_of_the_tables_it_is_given() {
+fn training_continues_from_the_mean_of_the_given_tables() {
     let desk = Desk::new();
     let (shipped, blank) = tables_of_two_capsules();
     desk.write("shipped.rs", &shipped);
     desk.write("blank.rs", blank);
-    let go_on = |tables: &[&str]| {
-        let asked = ["train", "--capsules", "2", "--keep", "1", "--lessons", "1", "--worlds", "1"];
-        let asked = asked.into_iter().chain(["--size", "0.001", "--rounds", "1", "--out", "learnt.rs"]);
-        desk.run(&asked.chain(tables.iter().copied()).collect::<Vec<_>>())
+    let train = |tables: &[&str]| {
+        let options = ["train", "--capsules", "2", "--keep", "1", "--iterations", "1", "--scenarios", "1"];
+        let options = options.into_iter().chain(["--size", "0.001", "--epochs", "1", "--out", "trained.rs"]);
+        desk.run(&options.chain(tables.iter().copied()).collect::<Vec<_>>())
     };
-    // All of what came before is kept, so what is written is what the course began with.
-    go_on(&["--go-on", "--table", "shipped.rs", "--table", "blank.rs"]).done();
-    let learnt = std::fs::read_to_string(desk.path("learnt.rs")).expect("a table was written");
+    // With --keep 1 the written table is the initial one.
+    train(&["--resume", "--table", "shipped.rs", "--table", "blank.rs"]).done();
+    let trained = std::fs::read_to_string(desk.path("trained.rs")).expect("a table was written");
     let weights = |table: &str| -> Vec<f64> {
         let (_, weights) = table.split_once("weights:").expect("weights");
         weights.split([' ', ',', '\n', '[', ']']).filter_map(|word| word.parse().ok()).collect()
     };
-    let (whole, half) = (weights(&shipped), weights(&learnt));
+    let (whole, half) = (weights(&shipped), weights(&trained));
     assert_eq!(whole.len(), half.len());
     for (whole, half) in whole.iter().zip(&half) {
         assert!((half - 0.5 * whole).abs() < FOUR_PLACES, "the mean of {whole} and nothing is not {half}");
     }
-    go_on(&["--table", "shipped.rs"]).refused(2, &["--go-on"]);
-    go_on(&["--go-on", "--table", "missing.rs"]).refused(1, &["missing.rs"]);
+    train(&["--table", "shipped.rs"]).refused(2, &["--resume"]);
+    let old = train(&["--go-on", "--table", "missing.rs"]);
+    old.refused(1, &["missing.rs", "--go-on is now called --resume"]);
 }
 
 #[test]
-fn the_detector_listens_to_a_rehearsed_day() {
+fn the_detector_runs_over_a_rehearsed_day() {
     let desk = Desk::new();
     let day = |room: &str| desk.run(&["day", "--hours", "0.05", "--room", room, "--json"]);
-    let heard = day("gallery");
-    heard.done();
-    let report: serde_json::Value = serde_json::from_str(&heard.out).expect("one JSON object");
+    let gallery = day("gallery");
+    gallery.done();
+    let report: serde_json::Value = serde_json::from_str(&gallery.out).expect("one JSON object");
     assert!(report["all"]["breaths"].as_u64() > Some(0), "{report}");
     day("cathedral").refused(1, &["cathedral", "gallery"]);
     desk.run(&["day", "--table", "nowhere.rs"]).refused(1, &["nowhere.rs"]);

@@ -1,17 +1,17 @@
-//! What an onlooker hears of an answer: the rushing of wind, in what leaves the loudspeaker.
+//! Audio observer: detects the sound of wind in the loudspeaker's output, by the median of its power spectrum.
 //!
-//! Only wind counts, and not what the wind has set ringing: dozens of moons that strike each other, and the room in which they
-//! ring on, are as dense as noise. So what is listened to is what the loudspeaker plays beyond what it would play in still air.
+//! Only wind counts, not the parts that it makes sound: dozens of moons that strike each other, with their reverberation, are as dense
+//! as noise. So the observer analyses the difference between the loudspeaker's output and its output in still air.
 //!
-//! A breath that is answered is heard as wind: noise, where what rings is tones, and lasting, where a click is
-//! over at once. The median of a band's power spectrum knows no tones, since they fill few of its bins. Noise of mean power
-//! p a bin has the median p ln 2 (its powers are exponentially distributed), so
+//! Wind is noise, while vibrating bodies make tones; and it is sustained, while a click is short. The median of a band's power
+//! spectrum ignores tones, since they fill few of its bins. Noise of mean power p per bin has the median p ln 2 (its powers are
+//! exponentially distributed):
 //!
 //! ```text
 //! noise = median / ln 2 · bins                 wind = noise above −60 dB of full scale in 6 of 7 frames in a row
 //! ```
 //!
-//! with frames of 43 ms, half of each new. A gentle breath's wind lies at −50 dB, a strong one's at −30 dB.
+//! Frames are 43 ms long and overlap by half. The wind of a gentle breath lies at −50 dB, that of a strong one at −30 dB.
 
 use std::sync::Arc;
 
@@ -20,63 +20,65 @@ use soffio_fourier::{RealToComplex, real_forward};
 use super::blocks::SAMPLE_RATE_HZ;
 use soffio_math::{PI, cos, from_decibels};
 
-/// Samples of a frame, and how many are new.
+/// Length of a frame, samples.
 const FRAME: usize = 2048;
+/// Distance between frames, samples.
 const HOP: usize = 1024;
-/// The band in which wind rushes most, Hz.
+/// Band in which wind is strongest, Hz.
 const BAND_HZ: (f64, f64) = (150.0, 800.0);
-/// Noise from here on is heard as wind, dB of full scale.
+/// Level from which noise counts as wind, dB of full scale.
 const WIND_DBFS: f64 = -60.0;
-/// So many frames in a row, of which one may be otherwise.
+/// Length of a wind, frames.
 const LASTS: u32 = 7;
+/// Number of these frames that may be without wind.
 const OTHERWISE: u32 = 1;
-/// A Hann window keeps this part of the power.
+/// Share of the power that a Hann window keeps.
 const HANN: f64 = 0.375;
 
-/// The onlooker's ears.
-pub struct Ears {
+/// Detector of wind in the loudspeaker's output.
+pub struct AudioObserver {
     transform: Arc<dyn RealToComplex<f64>>,
     window: Vec<f64>,
-    waiting: Vec<f64>,
-    /// The last frames, the newest in the lowest bit: was it wind?
+    pending: Vec<f64>,
+    /// One bit per frame, the newest lowest: 1 for wind.
     frames: u32,
-    rushes: bool,
-    /// Samples heard.
+    is_wind: bool,
+    /// Number of samples so far.
     sample: u64,
 }
 
-impl Ears {
-    /// In silence.
+impl AudioObserver {
+    /// An observer in silence.
     pub fn new() -> Self {
         let hann = |i: usize| 0.5 - 0.5 * cos(2.0 * PI * i as f64 / FRAME as f64);
         Self {
             transform: real_forward(FRAME),
             window: (0..FRAME).map(hann).collect(),
-            waiting: vec![0.0; FRAME - HOP],
+            pending: vec![0.0; FRAME - HOP],
             frames: 0,
-            rushes: false,
+            is_wind: false,
             sample: 0,
         }
     }
 
-    /// Hears a block (stereo) beside the one that would be played in still air. The times at which wind begins to rush, s.
-    pub fn hear(&mut self, played: &[f32], still: &[f32]) -> Vec<f64> {
+    /// Takes a block (stereo) and the same block in still air; returns the times at which wind begins, s.
+    pub fn push(&mut self, played: &[f32], still: &[f32]) -> Vec<f64> {
         let mut begins = Vec::new();
         for ([left, right], [l, r]) in played.as_chunks::<2>().0.iter().zip(still.as_chunks::<2>().0) {
-            self.waiting.push(0.5 * (f64::from(*left) - f64::from(*l) + f64::from(*right) - f64::from(*r)));
+            self.pending.push(0.5 * (f64::from(*left) - f64::from(*l) + f64::from(*right) - f64::from(*r)));
             self.sample += 1;
-            if self.waiting.len() == FRAME {
+            if self.pending.len() == FRAME {
                 let loud = from_decibels(WIND_DBFS);
                 self.frames = self.frames << 1 | u32::from(self.noise() > loud * loud);
-                self.waiting.drain(..HOP);
+                self.pending.drain(..HOP);
                 let last = self.frames & ((1 << LASTS) - 1);
-                let rushes = last.count_ones() + OTHERWISE >= LASTS || self.rushes && last != 0;
-                if rushes && !self.rushes {
+                let is_wind = last.count_ones() + OTHERWISE >= LASTS || self.is_wind && last != 0;
+                if is_wind && !self.is_wind {
                     let frames = (32 - last.leading_zeros()).saturating_sub(1) as usize;
                     let began = self.sample.saturating_sub((FRAME + frames * HOP) as u64);
                     begins.push(began as f64 / f64::from(SAMPLE_RATE_HZ));
                 }
-                self.rushes = rushes;
+                self.is_wind = is_wind;
             }
         }
         begins
@@ -84,7 +86,7 @@ impl Ears {
 
     /// Power of the noise in the band, full scale 1.
     fn noise(&self) -> f64 {
-        let mut frame: Vec<f64> = self.waiting.iter().zip(&self.window).map(|(x, w)| x * w).collect();
+        let mut frame: Vec<f64> = self.pending.iter().zip(&self.window).map(|(x, w)| x * w).collect();
         let mut spectrum = self.transform.make_output_vec();
         // Lengths agree by construction.
         if self.transform.process(&mut frame, &mut spectrum).is_err() {
@@ -112,43 +114,43 @@ mod tests {
         begins_beside(sound, |_, _| 0.0)
     }
 
-    /// The same, beside what would be played in still air.
+    /// Times at which wind begins, given the sound in still air.
     fn begins_beside(sound: impl Fn(f64, f64) -> f64, still: impl Fn(f64, f64) -> f64) -> Vec<f64> {
         let noise = normalised(low_passed(gaussian(8 * SAMPLE_RATE_HZ as usize, &mut Random::new(2)), RATE, 400.0, 1));
-        let mut ears = Ears::new();
+        let mut observer = AudioObserver::new();
         let stereo = |sound: &dyn Fn(f64, f64) -> f64| -> Vec<f32> {
             let samples = noise.iter().enumerate().map(|(i, n)| sound(i as f64 / RATE, *n) as f32);
             samples.flat_map(|x| [x, x]).collect()
         };
         let (played, still) = (stereo(&sound), stereo(&still));
-        played.chunks(960).zip(still.chunks(960)).flat_map(|(block, still)| ears.hear(block, still)).collect()
+        played.chunks(960).zip(still.chunks(960)).flat_map(|(block, still)| observer.push(block, still)).collect()
     }
 
     #[test]
-    fn what_rings_as_dense_as_noise_is_no_wind_and_wind_in_it_is_heard() {
+    fn sound_as_dense_as_noise_is_no_wind_and_wind_in_it_is_detected() {
         let ringing = |t: f64, n: f64| 0.01 * n * exp(-(t - 1.0).max(0.0) / 2.0);
-        assert!(!begins(ringing).is_empty(), "by itself nothing tells it from wind");
-        assert!(begins_beside(ringing, ringing).is_empty(), "it would ring in still air too");
+        assert!(!begins(ringing).is_empty(), "alone it resembles wind");
+        assert!(begins_beside(ringing, ringing).is_empty(), "it would sound in still air too");
         let gust = |t: f64| if (5.0..6.0).contains(&t) { 0.004 } else { 0.0 };
-        let heard = begins_beside(|t, n| ringing(t, n) + gust(t) * n, ringing);
-        assert_eq!(heard.len(), 1, "{heard:?}");
-        assert!((heard[0] - 5.0).abs() < 0.05, "{heard:?}");
+        let begins = begins_beside(|t, n| ringing(t, n) + gust(t) * n, ringing);
+        assert_eq!(begins.len(), 1, "{begins:?}");
+        assert!((begins[0] - 5.0).abs() < 0.05, "{begins:?}");
     }
 
     #[test]
-    fn wind_is_heard_when_it_begins_and_chimes_and_clicks_are_not() {
-        /// A frame before, a frame after.
+    fn wind_is_detected_when_it_begins_and_chimes_and_clicks_are_not() {
+        /// Length of a frame, s.
         const ABOUT: f64 = 0.05;
         let chime = |t: f64| [523.0, 1444.0, 2830.0].iter().map(|f| 0.1 * sin(2.0 * PI * f * t)).sum::<f64>();
         assert!(begins(|t, _| chime(t)).is_empty(), "a chime");
         let click = |t: f64, n: f64| 0.3 * n * exp(-(t % 1.0) / 0.01);
         assert!(begins(click).is_empty(), "clicks");
         let gust = |t: f64| if (2.0..3.0).contains(&t) || (5.0..5.4).contains(&t) { 0.004 } else { 0.0 };
-        for (name, heard) in
+        for (name, begins) in
             [("alone", begins(|t, n| gust(t) * n)), ("in a chime", begins(|t, n| gust(t) * n + chime(t)))]
         {
-            assert_eq!(heard.len(), 2, "{name}: {heard:?}");
-            assert!((heard[0] - 2.0).abs() < ABOUT && (heard[1] - 5.0).abs() < ABOUT, "{name}: {heard:?}");
+            assert_eq!(begins.len(), 2, "{name}: {begins:?}");
+            assert!((begins[0] - 2.0).abs() < ABOUT && (begins[1] - 5.0).abs() < ABOUT, "{name}: {begins:?}");
         }
     }
 }

@@ -1,42 +1,43 @@
-//! Does the microphone change its own gain?
+//! Detection of automatic gain control (AGC) in the microphone.
 //!
-//! After a loud breath an automatic gain control is still turned down: the room above 1.6 kHz, where a breath's rumble leaves
-//! nothing, is quieter than before it, and creeps back. A plain microphone's room is as loud as it was.
+//! After a loud breath an automatic gain control is still turned down. So the ambient noise above 1.6 kHz, where breath has no
+//! rumble, is quieter than before and recovers slowly. Without gain control it is as loud as before.
 //!
 //! ```text
-//! drop = room before the breath − quietest tenth of a second in the first 0.4 s after it,   dB
+//! drop = noise before the breath − quietest 0.1 s in the first 0.4 s after it,   dB
 //! ```
 //!
-//! Two of the last three breaths with a drop of 6 dB or more mean a gain control.
+//! Drops of 6 dB or more after two of the last three breaths mean gain control.
 
 use super::features::{Levels, blend};
 use super::spectrum::FRAME_S;
 
-/// A smaller drop may be the room itself, dB.
+/// Smallest drop that counts, dB: the ambient noise itself varies by less.
 const DROP_DB: f64 = 6.0;
-/// How long after a breath its room is looked at, and how long it takes until the breath's end has died away, s.
-const LOOK_S: (f64, f64) = (0.1, 0.5);
+/// Beginning and end of the search after a breath, s; before it the breath's end dies away.
+const WINDOW_S: (f64, f64) = (0.1, 0.5);
 
-/// What is known about the gain.
+/// State of the AGC detector.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct GainControl {
-    /// Level of the treble before the breath, slow, and now, quick; dB of full scale.
+pub struct AgcDetector {
+    /// Level of 1.6–3.4 kHz before the breath, a slow average, dB of full scale.
     before: f64,
+    /// The same level now, a fast average.
     now: f64,
-    /// Frames heard.
+    /// Number of frames.
     frames: u64,
-    /// Time since the last breath, s; `None` where it has been looked at.
+    /// Time since the last breath, s; `None` once it has been evaluated.
     after: Option<f64>,
     lowest: f64,
     blowing: bool,
-    /// What the last three breaths said: 1 a drop.
+    /// Drops after the last three breaths.
     votes: [bool; 3],
 }
 
-impl GainControl {
+impl AgcDetector {
     /// Takes one frame.
     pub fn push(&mut self, blowing: bool, levels: &Levels) {
-        let level = levels.treble_dbfs;
+        let level = levels.agc_band_dbfs;
         self.frames += 1;
         let early = 1.0 / self.frames as f64;
         self.now += blend(0.06).max(early) * (level - self.now);
@@ -47,13 +48,13 @@ impl GainControl {
         }
         self.blowing = blowing;
         match self.after {
-            Some(time) if time > LOOK_S.1 => {
+            Some(time) if time > WINDOW_S.1 => {
                 self.votes = [self.votes[1], self.votes[2], self.before - self.lowest > DROP_DB];
                 self.after = None;
             }
             Some(time) => {
                 self.after = Some(time + FRAME_S);
-                if time > LOOK_S.0 {
+                if time > WINDOW_S.0 {
                     self.lowest = self.lowest.min(self.now);
                 }
             }
@@ -62,8 +63,8 @@ impl GainControl {
         }
     }
 
-    /// Has a gain control been at work?
-    pub fn seen(&self) -> bool {
+    /// True where an automatic gain control has been detected.
+    pub fn is_detected(&self) -> bool {
         self.votes.iter().filter(|v| **v).count() >= 2
     }
 }

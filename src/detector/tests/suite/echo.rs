@@ -1,4 +1,4 @@
-//! The kiosk hears itself: its loudspeaker, through a room, at its microphone.
+//! The kiosk's own echo: its loudspeaker, through a room, at its microphone.
 
 use std::collections::VecDeque;
 
@@ -9,31 +9,31 @@ use soffio_math::noise::Random;
 const RATE: u32 = 48000;
 /// Samples of one simulation step.
 const BLOCK: usize = 200;
-/// From the sample handed to the loudspeaker to the one at the microphone: sound card both ways, and air.
+/// Delay from the sample at the loudspeaker's input to the one at the microphone, s: sound card both ways, and air.
 const PATH_S: f64 = 0.08;
 
-/// A room between loudspeaker and microphone: the direct sound and some reflections, none known to the detector.
-struct Room {
-    past: VecDeque<f32>,
+/// A path from loudspeaker to microphone: the direct sound and some reflections, all unknown to the detector.
+struct EchoPath {
+    history: VecDeque<f32>,
     echoes: Vec<(usize, f32)>,
 }
 
-impl Room {
+impl EchoPath {
     fn new(gain: f32) -> Self {
         let at = |ms: f64| ((PATH_S * 1000.0 + ms) * f64::from(RATE) / 1000.0) as usize;
         let echoes = [(0.0, 1.0), (7.3, 0.5), (13.1, -0.4), (23.9, 0.3), (41.0, -0.25), (67.7, 0.15)];
         let echoes = echoes.map(|(ms, g)| (at(ms), gain * g)).to_vec();
-        Self { past: vec![0.0; at(100.0)].into(), echoes }
+        Self { history: vec![0.0; at(100.0)].into(), echoes }
     }
 
-    fn hear(&mut self, played: f32) -> f32 {
-        self.past.pop_back();
-        self.past.push_front(played);
-        self.echoes.iter().map(|&(delay, gain)| gain * self.past[delay]).sum()
+    fn push(&mut self, played: f32) -> f32 {
+        self.history.pop_back();
+        self.history.push_front(played);
+        self.echoes.iter().map(|&(delay, gain)| gain * self.history[delay]).sum()
     }
 }
 
-/// The sound of wind as the kiosk makes it: noise between 120 Hz and 2 kHz, as loud as the wind is fast.
+/// The kiosk's sound of wind: noise between 120 Hz and 2 kHz, whose level follows the wind speed.
 struct WindSound {
     random: Random,
     level: f64,
@@ -46,7 +46,7 @@ impl WindSound {
         Self { random: Random::new(seed), level: 0.0, low: [0.0; 2], high: 0.0 }
     }
 
-    /// As loud at the microphone as the breath itself: √(mean square) ≈ 0.65 at 17 m/s, with the square of the speed.
+    /// Next sample, as loud at the microphone as the breath: √(mean square) ≈ 0.65 at 17 m/s, with the square of the speed.
     fn next(&mut self, speed: f64) -> f32 {
         let pole = |corner: f64| 1.0 - (-2.0 * std::f64::consts::PI * corner / f64::from(RATE)).exp();
         self.level += pole(3.0) * (speed * speed / 289.0 - self.level);
@@ -60,16 +60,17 @@ impl WindSound {
     }
 }
 
-/// Visitor and loudspeaker together at the microphone; `play` gives the kiosk's next sample from the wind's speed.
+/// Estimates for a visitor and the loudspeaker together at the microphone; `play` gives the loudspeaker's next sample from the wind
+/// speed.
 fn run(visitor: &[f32], gain: f32, mut play: impl FnMut(usize, f64) -> f32) -> Vec<(f64, BlowEstimate)> {
-    let mut room = Room::new(gain);
+    let mut path = EchoPath::new(gain);
     let mut detector = BlowDetector::new(RATE);
     let mut estimates = Vec::new();
     for (step, block) in visitor.chunks(BLOCK).enumerate() {
         let speed = detector.estimate().speed;
         let played: Vec<f32> = (0..block.len()).map(|i| play(step * BLOCK + i, speed)).collect();
-        let heard: Vec<f32> = block.iter().zip(&played).map(|(b, p)| (b + room.hear(*p)).clamp(-1.0, 1.0)).collect();
-        detector.push(&heard, &played);
+        let sum: Vec<f32> = block.iter().zip(&played).map(|(b, p)| (b + path.push(*p)).clamp(-1.0, 1.0)).collect();
+        detector.push(&sum, &played);
         estimates.push(((step + 1) as f64 * BLOCK as f64 / f64::from(RATE), detector.estimate()));
     }
     estimates
@@ -79,8 +80,8 @@ fn quiet_room(seconds: f64) -> Vec<f32> {
     generate::pink_noise(RATE, 90, seconds, -60.0)
 }
 
-/// Part of a breath, its ends left out, for which the wind must hold while the kiosk answers as loudly as the breath:
-/// in the lulls between gusts its own sound covers a soft breath for moments.
+/// Share of a breath, its ends left out, for which the wind must last while the kiosk is as loud as the breath: between gusts the
+/// echo masks a soft breath for moments.
 const HELD: f64 = 0.8;
 
 #[test]
@@ -88,7 +89,7 @@ fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
     for (seed, strength) in [(1, 6.0), (2, 8.9), (3, 13.3)] {
         let shape = BreathShape { strength, hold: 2.0, lead_out: 3.0, ..BreathShape::default() };
         let mut visitor = generate::breath(RATE, seed, &shape);
-        // Twice: the second time the detector has had something to learn from.
+        // Twice: the second time the detector knows the echo.
         visitor.extend(generate::breath(RATE, seed + 10, &shape));
         let mut sound = WindSound::new(seed);
         let wind = run(&visitor, 1.0, |_, speed| sound.next(speed));
@@ -99,8 +100,8 @@ fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
             let held = during.iter().filter(|(_, e)| e.speed > 0.0).count() as f64 / during.len() as f64;
             assert!(held > HELD, "{strength} m/s from {start} s: wind for {:.0} % of the breath", 100.0 * held);
             let late = |t: f64| t > start + end + 0.4 && t < start + shape.duration();
-            let ghost = wind.iter().find(|(t, e)| late(*t) && e.speed > 0.0);
-            assert!(ghost.is_none(), "{strength} m/s from {start} s: wind after the breath: {ghost:?}");
+            let false_trigger = wind.iter().find(|(t, e)| late(*t) && e.speed > 0.0);
+            assert!(false_trigger.is_none(), "{strength} m/s from {start} s: wind after the breath: {false_trigger:?}");
         }
     }
 }
@@ -108,15 +109,15 @@ fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
 #[test]
 fn the_kiosk_alone_never_makes_wind() {
     let seconds = 8.0;
-    // Gusts of its own wind sound, as if a breath had been; and four times as loud as may be guessed before it is heard.
+    // Gusts of its own wind sound, as after a breath, at up to four times the coupling that is assumed at first.
     for gain in [0.3, 1.0, 4.0] {
         let mut sound = WindSound::new(5);
         let gusts = |t: f64| if t % 2.0 > 0.8 { 14.0 } else { 0.0 };
         let wind = run(&quiet_room(seconds), gain, |i, _| sound.next(gusts(i as f64 / f64::from(RATE))));
-        let ghost = wind.iter().find(|(_, e)| e.speed > 0.0);
-        assert!(ghost.is_none(), "wind sound at gain {gain}: {ghost:?}");
+        let false_trigger = wind.iter().find(|(_, e)| e.speed > 0.0);
+        assert!(false_trigger.is_none(), "wind sound at gain {gain}: {false_trigger:?}");
     }
-    // Low bursts, breath-like but for where they come from; and a chime.
+    // Low bursts like breath, a played breath, and a chime.
     let times: Vec<f64> = (0..6).map(|k| 0.6 + 1.2 * f64::from(k)).collect();
     let shape = BreathShape { lead_in: 0.8, hold: 1.5, lead_out: 4.0, corner_hz: 60.0, ..BreathShape::default() };
     let chime = |i: usize| {
@@ -132,10 +133,13 @@ fn the_kiosk_alone_never_makes_wind() {
     ];
     for (name, sound) in sounds {
         let wind = run(&quiet_room(seconds), 0.7, |i, _| sound.get(i).copied().unwrap_or(0.0));
-        let ghost = wind.iter().find(|(_, e)| e.speed > 0.0);
-        assert!(ghost.is_none(), "{name}: {ghost:?}");
+        let false_trigger = wind.iter().find(|(_, e)| e.speed > 0.0);
+        assert!(false_trigger.is_none(), "{name}: {false_trigger:?}");
         if name != "a chime" {
-            assert!(wind.iter().any(|(_, e)| e.reason == Reason::OwnVoice), "{name}: the detector says why");
+            assert!(
+                wind.iter().any(|(_, e)| e.reason == Reason::LoudspeakerEcho),
+                "{name}: the detector names the echo"
+            );
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What the kiosk plays: its wind, its chimes, its speech; and the loudspeaker that turns it into sound.
+//! Synthesis of the kiosk's own sound: its wind, its chimes and its speech, and the response of its loudspeaker.
 
 use super::voices::{add, decaying};
 use super::{Breath, RATE};
@@ -8,7 +8,7 @@ use soffio_math::{PI, pow, sin, tanh};
 
 const R: f64 = RATE as f64;
 
-/// Wind as the kiosk makes it: noise whose corner and loudness follow a breath.
+/// The kiosk's sound of wind: noise whose corner and loudness follow a breath.
 struct Wind {
     low: Vec<f64>,
     high: Vec<f64>,
@@ -33,8 +33,8 @@ impl Wind {
     }
 }
 
-/// The kiosk's answers to breaths: its wind, a little later than each, and strikes of what it moves; half the time it
-/// has been ringing before.
+/// The kiosk's response to breaths: its wind, a little later than each, and impacts of the moving parts. In half of all cases it
+/// has been sounding before.
 pub fn answers(seconds: f64, breaths: &[Breath], random: &mut Random) -> Vec<f64> {
     let mut out = vec![0.0; (seconds * R) as usize];
     let wind = Wind::new(out.len(), random);
@@ -86,8 +86,8 @@ fn strikes(out: &mut [f64], from: f64, random: &mut Random) {
     }
 }
 
-/// A small loudspeaker: nothing below its resonance, a little too much when it is driven hard.
-pub fn loudspeaker(played: &[f64], random: &mut Random) -> Vec<f64> {
+/// Response of a small loudspeaker: a high-pass at its resonance, and soft saturation when it is driven hard.
+pub fn speaker_response(played: &[f64], random: &mut Random) -> Vec<f64> {
     let (corner, drive) = (random.range(50.0, 150.0), random.range(0.3, 1.2));
     let out = high_passed(played.to_vec(), R, corner, 2);
     out.into_iter().map(|x| tanh(drive * x) / drive).collect()

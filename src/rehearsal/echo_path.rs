@@ -1,8 +1,8 @@
-//! The room that the kiosk stands in, and the way from its loudspeaker back to its microphone.
+//! Echo path from the kiosk's loudspeaker through its room to its microphone, as a real-time convolution.
 //!
-//! The response is that of [`Room`] by image sources; here it is applied while the day goes on, block by block, as a
-//! uniformly partitioned convolution by overlap-save (Stockham 1966; Gardner, JAES 43, 1995): the response is cut into
-//! parts as long as a block, each multiplies the spectrum of the block that is as many blocks old.
+//! The impulse response is that of [`Room`] by image sources. It is applied block by block, as a uniformly partitioned convolution with
+//! overlap-save (Stockham 1966; Gardner, JAES 43, 1995). The response is cut into parts of one block. Each part multiplies the spectrum
+//! of the block that is as many blocks old.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -10,39 +10,40 @@ use std::sync::Arc;
 use soffio_fourier::{Complex, ComplexToReal, RealToComplex, real_forward, real_inverse};
 
 use super::blocks::BLOCK;
-use super::rate::Coarser;
+use super::rate::Decimator;
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI, exp, from_decibels, tanh};
 use soffio_soundscape::RATE;
 use soffio_soundscape::rooms::Room;
 
-/// Rooms by name: what they are, size (m), mean absorption of their walls.
+/// Rooms: name, size (m), mean absorption of the walls.
 pub const ROOMS: [(&str, [f64; 3], f64); 3] =
     [("cabinet", [6.0, 5.0, 3.0], 0.30), ("gallery", [14.0, 9.0, 4.5], 0.20), ("hall", [25.0, 16.0, 6.0], 0.12)];
-/// Loudspeaker to microphone, m: both stand at the kiosk.
+/// Distance from loudspeaker to microphone, m: both stand at the kiosk.
 const AWAY_M: f64 = 0.6;
-/// What full scale of the loudspeaker is at the microphone, dB of full scale: a microphone so sensitive that a hard
-/// breath drives it to its rails hears its loudspeaker much softer; this is the worst that a site may set up.
+/// Level of a full-scale output at the microphone, dB of full scale. A microphone that a hard breath drives to full scale receives its
+/// loudspeaker at a much lower level; this is the worst case that a site may set up.
 const COUPLING_DB: f64 = 0.0;
-/// Blocks of sound card and system on their way out and in: 50 ms.
+/// Delay of sound card and system on the way out and in, blocks: 50 ms.
 const LATENCY: usize = 5;
-/// A small loudspeaker: nothing below its resonance (Hz), and a little too much when it is driven hard.
+/// High-pass corner of a small loudspeaker, Hz.
 const RESONANCE_HZ: f64 = 90.0;
+/// Saturation of a small loudspeaker: output tanh(DRIVE · x) / DRIVE.
 const DRIVE: f64 = 0.8;
 
-/// The room of a name, with the kiosk in it.
+/// The room of a name, with the kiosk in it; `None` for an unknown name.
 pub fn room(name: &str, random: &mut Random) -> Option<Room> {
     let (_, size, absorption) = ROOMS.iter().find(|(known, ..)| *known == name)?;
     Some(Room::new(DVec3::from_array(*size), *absorption, random))
 }
 
-/// The loudspeaker as the microphone hears it.
+/// Echo of the loudspeaker at the microphone.
 #[derive(Clone)]
-pub struct Echo {
-    coarser: Coarser,
-    /// One-pole high passes of the loudspeaker.
+pub struct EchoPath {
+    decimator: Decimator,
+    /// States of the loudspeaker's one-pole high passes.
     low: [f64; 2],
-    /// Of each capsule, the spectra of the response's parts.
+    /// Spectra of the response's parts, for each capsule.
     parts: Vec<Vec<Vec<Complex<f64>>>>,
     /// Spectra of the last blocks, the newest first.
     spectra: VecDeque<Vec<Complex<f64>>>,
@@ -52,8 +53,8 @@ pub struct Echo {
     back: Arc<dyn ComplexToReal<f64>>,
 }
 
-impl Echo {
-    /// In this room, for so many capsules.
+impl EchoPath {
+    /// The path in a room, to 1 or 2 capsules.
     pub fn new(room: &Room, capsules: usize, random: &mut Random) -> Self {
         let (at, seed) = (room.near(AWAY_M, random), random.word());
         let (forward, back) = (real_forward(2 * BLOCK), real_inverse(2 * BLOCK));
@@ -65,7 +66,7 @@ impl Echo {
         };
         let parts = (0..capsules).map(|capsule| room.response(at, capsule, seed).chunks(BLOCK).map(part).collect());
         Self {
-            coarser: Coarser::new(),
+            decimator: Decimator::new(),
             low: [0.0; 2],
             parts: parts.collect(),
             spectra: VecDeque::new(),
@@ -76,11 +77,10 @@ impl Echo {
         }
     }
 
-    /// What arrives at each capsule while a block is played (stereo at 48 kHz): a block at 16 kHz, of what was played
-    /// [`LATENCY`] blocks ago and before.
-    pub fn hear(&mut self, played: &[f32]) -> Vec<Vec<f64>> {
+    /// Echo at each capsule during a block of output (stereo at 48 kHz): a block at 16 kHz, of the output up to [`LATENCY`] blocks ago.
+    pub fn process(&mut self, played: &[f32]) -> Vec<Vec<f64>> {
         let mono = played.as_chunks::<2>().0.iter().map(|[left, right]| 0.5 * f64::from(left + right));
-        let mut sound = self.coarser.convert(mono);
+        let mut sound = self.decimator.convert(mono);
         let keep = exp(-2.0 * PI * RESONANCE_HZ / f64::from(RATE));
         for x in &mut sound {
             for low in &mut self.low {
@@ -91,20 +91,20 @@ impl Echo {
         }
         self.late.push_back(sound);
         let sound = self.late.pop_front().unwrap_or_default();
-        let mut pair = std::mem::replace(&mut self.before, sound);
-        pair.extend_from_slice(&self.before);
-        self.spectra.push_front(spectrum(&*self.forward, &mut pair));
+        let mut both = std::mem::replace(&mut self.before, sound);
+        both.extend_from_slice(&self.before);
+        self.spectra.push_front(spectrum(&*self.forward, &mut both));
         self.spectra.truncate(self.parts.iter().map(Vec::len).max().unwrap_or_default());
-        self.parts.iter().map(|parts| self.arrives(parts)).collect()
+        self.parts.iter().map(|parts| self.convolve(parts)).collect()
     }
 
-    /// The present block of all that was played, through a response.
-    fn arrives(&self, parts: &[Vec<Complex<f64>>]) -> Vec<f64> {
+    /// Current block of the convolution with one capsule's response.
+    fn convolve(&self, parts: &[Vec<Complex<f64>>]) -> Vec<f64> {
         let mut sum = vec![Complex::ZERO; BLOCK + 1];
         for (part, spectrum) in parts.iter().zip(&self.spectra) {
             sum.iter_mut().zip(part.iter().zip(spectrum)).for_each(|(z, (h, x))| *z += h * x);
         }
-        // What rounding leaves imaginary at 0 Hz and at the top has no place in a real signal.
+        // The spectrum of a real signal is real at 0 Hz and at half the sample rate; rounding may leave an imaginary part.
         (sum[0].im, sum[BLOCK].im) = (0.0, 0.0);
         let mut out = vec![0.0; 2 * BLOCK];
         // Lengths agree by construction.
@@ -130,16 +130,16 @@ mod tests {
     use soffio_soundscape::rooms::convolved;
 
     #[test]
-    fn blocks_are_the_whole_convolution() {
-        // Two transforms of other lengths.
+    fn blocks_equal_the_whole_convolution() {
+        // Rounding of two transforms of different lengths.
         const ROUNDING: f64 = 1e-9;
         let mut random = Random::new(3);
         let hall = room("hall", &mut random).expect("a known room");
-        let mut echo = Echo::new(&hall, 1, &mut random.clone());
+        let mut echo = EchoPath::new(&hall, 1, &mut random.clone());
         let response = hall.response(hall.near(AWAY_M, &mut random), 0, random.word());
-        // Quiet enough for a straight loudspeaker, whose high pass is left out by comparing with its own output.
+        // A quiet sound does not saturate the loudspeaker. Its high pass is left out by comparing with its own output.
         let mut sounds = Vec::new();
-        let mut heard = Vec::new();
+        let mut received = Vec::new();
         for _ in 0..80 {
             let block: Vec<f32> = (0..BLOCK * super::super::rate::RATIO)
                 .flat_map(|_| {
@@ -147,12 +147,12 @@ mod tests {
                     [x, x]
                 })
                 .collect();
-            heard.extend(echo.hear(&block).remove(0));
+            received.extend(echo.process(&block).remove(0));
             sounds.extend(echo.late.back().cloned().unwrap_or_default());
         }
         let whole = convolved(&sounds, &response);
         let delay = LATENCY * BLOCK;
-        let furthest = heard[delay..].iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let furthest = received[delay..].iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         assert!(furthest < ROUNDING, "{furthest}");
         assert!(whole.iter().any(|x| x.abs() > 0.01));
     }

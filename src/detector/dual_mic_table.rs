@@ -1,30 +1,32 @@
-//! What the network of two capsules has learnt: written by `soffio-training train`, not by hand.
+//! Trained weights of the network of two capsules. Written by `soffio-training train`, not by hand.
 //!
-//! What lies above 4 kHz began as zeros in the table of before. Five sittings taught it (12 to 18 worlds each, from one another's
-//! means). From the mean of the last three of them, two sittings of 14 worlds went on, with breaths amid companions' talk, the second
-//! one also with those that stand above the noise only above 4 kHz; a third, like the second, from the mean of both (`--go-on
-//! --keep 0 --size 0.1`). Each weight is the mean of these three (Wortsman et al., "Model soups", ICML 2022).
-//! Before a new sitting takes its place, mark it (`soffio-training score --table`), and count the ghosts and the lost breaths of both
-//! over the same day (`soffio rehearse --ear --table`).
+//! The weights of the high band were added as zeros to the previous table. Five training runs followed, each from the mean of
+//! others, with 12 to 18 scenarios each. Two runs of 14 scenarios continued from the mean of the last three. They included breaths
+//! during companions' talk, and the second one also breaths that rise above the noise only above 4 kHz. A third, like the second,
+//! continued from the mean of both (`--resume --keep 0 --size 0.1`). Each weight is the mean of these three (Wortsman et al.,
+//! "Model soups", ICML 2022).
+//!
+//! Before a new table replaces this one, score it (`soffio-training score --table`), and compare false positives and missed
+//! breaths of both over the same day (`soffio-training day --table`).
 
 use std::borrow::Cow;
 
-use super::pair::PairModel;
+use super::dual_mic_model::DualMicModel;
 
-/// What was learnt.
+/// Trained weights.
 #[rustfmt::skip]
-#[allow(clippy::approx_constant)] // what was learnt, whatever it resembles
-pub static TRAINED: PairModel = PairModel {
+#[allow(clippy::approx_constant)] // trained values may resemble constants by chance
+pub static TRAINED: DualMicModel = DualMicModel {
     scale: [
         [-0.3178, 0.6010], // sum: log-odds, 10
-        [1.0107, 1.1446], // sum: rise of 31–94 Hz over the room, 10 dB
+        [1.0107, 1.1446], // sum: rise of 31–94 Hz over the noise floor, 10 dB
         [1.0816, 1.0996], // sum: rise of 94–203 Hz
         [0.9965, 1.0365], // sum: rise of 203–406 Hz
         [1.0070, 0.9532], // sum: rise of 406–812 Hz
         [0.9128, 0.9138], // sum: rise of 812–1625 Hz
         [0.7121, 0.8248], // sum: rise of 1625–3400 Hz
-        [0.1542, 1.1381], // sum: rise of low less twice the room's unrest there, 10 dB
-        [-0.0509, 0.9389], // sum: rise of middle less twice the room's unrest there, 10 dB
+        [0.1542, 1.1381], // sum: rise of low less twice its floor variance, 10 dB
+        [-0.0509, 0.9389], // sum: rise of middle less twice its floor variance, 10 dB
         [-0.8799, 1.0840], // sum: excess of 31–94 Hz over 94–203 Hz, 10 dB
         [-0.3017, 1.0706], // sum: excess of 94–203 Hz over 203–406 Hz
         [0.0750, 0.7769], // sum: excess of 203–406 Hz over 406–812 Hz
@@ -49,22 +51,22 @@ pub static TRAINED: PairModel = PairModel {
         [0.2446, 0.1033], // sum: change of the middle's shape from frame to frame, 10 dB
         [0.3999, 0.5861], // sum: steepest step of low in 0.1 s, 10 dB
         [0.2688, 0.4771], // sum: steepest step of middle in 0.1 s
-        [0.2782, 0.1496], // sum: part of the last 4 s in which low had risen
-        [0.3282, 0.1923], // sum: part of the last 4 s in which middle had risen
-        [-0.5742, 1.1400], // sum: low over its own peak of the seconds before, 10 dB
-        [-0.4578, 1.0226], // sum: middle over its own peak of the seconds before
+        [0.2782, 0.1496], // sum: activity of low in the last 4 s
+        [0.3282, 0.1923], // sum: activity of middle in the last 4 s
+        [-0.5742, 1.1400], // sum: ratio of low to its own peak, 10 dB
+        [-0.4578, 1.0226], // sum: ratio of middle to its own peak
         [0.4350, 0.1872], // sum: highest periodicity of the last second
-        [0.4881, 0.4200], // sum: likeness of low's bins to those of 48 ms ago
-        [-0.0703, 0.1132], // sum: peakedness of the treble over 40 ms
-        [-0.0714, 0.0848], // sum: peakedness of the treble over 0.16 s
-        [0.9264, 1.0203], // sum: rise of 31–94 Hz over the room, 10 dB, mean of 0.1 s
+        [0.4881, 0.4200], // sum: spectral correlation of low with 48 ms ago
+        [-0.0703, 0.1132], // sum: kurtosis of the treble over 40 ms
+        [-0.0714, 0.0848], // sum: kurtosis of the treble over 0.16 s
+        [0.9264, 1.0203], // sum: rise of 31–94 Hz over the noise floor, 10 dB, mean of 0.1 s
         [0.9756, 0.9828], // sum: rise of 94–203 Hz, mean of 0.1 s
         [0.9068, 0.9125], // sum: rise of 203–406 Hz, mean of 0.1 s
         [0.9064, 0.8350], // sum: rise of 406–812 Hz, mean of 0.1 s
         [0.8286, 0.7853], // sum: rise of 812–1625 Hz, mean of 0.1 s
         [0.6504, 0.6977], // sum: rise of 1625–3400 Hz, mean of 0.1 s
-        [0.0642, 1.0069], // sum: rise of low less twice the room's unrest there, 10 dB, mean of 0.1 s
-        [-0.1317, 0.8167], // sum: rise of middle less twice the room's unrest there, 10 dB, mean of 0.1 s
+        [0.0642, 1.0069], // sum: rise of low less twice its floor variance, 10 dB, mean of 0.1 s
+        [-0.1317, 0.8167], // sum: rise of middle less twice its floor variance, 10 dB, mean of 0.1 s
         [-0.8471, 0.8526], // sum: excess of 31–94 Hz over 94–203 Hz, 10 dB, mean of 0.1 s
         [-0.3410, 0.8933], // sum: excess of 94–203 Hz over 203–406 Hz, mean of 0.1 s
         [0.0857, 0.6011], // sum: excess of 203–406 Hz over 406–812 Hz, mean of 0.1 s
@@ -89,22 +91,22 @@ pub static TRAINED: PairModel = PairModel {
         [0.2462, 0.0911], // sum: change of the middle's shape from frame to frame, 10 dB, mean of 0.1 s
         [0.3697, 0.4098], // sum: steepest step of low in 0.1 s, 10 dB, mean of 0.1 s
         [0.2417, 0.3138], // sum: steepest step of middle in 0.1 s, mean of 0.1 s
-        [0.2705, 0.1501], // sum: part of the last 4 s in which low had risen, mean of 0.1 s
-        [0.3211, 0.1940], // sum: part of the last 4 s in which middle had risen, mean of 0.1 s
-        [-0.6846, 0.9844], // sum: low over its own peak of the seconds before, 10 dB, mean of 0.1 s
-        [-0.5633, 0.9120], // sum: middle over its own peak of the seconds before, mean of 0.1 s
+        [0.2705, 0.1501], // sum: activity of low in the last 4 s, mean of 0.1 s
+        [0.3211, 0.1940], // sum: activity of middle in the last 4 s, mean of 0.1 s
+        [-0.6846, 0.9844], // sum: ratio of low to its own peak, 10 dB, mean of 0.1 s
+        [-0.5633, 0.9120], // sum: ratio of middle to its own peak, mean of 0.1 s
         [0.4445, 0.1858], // sum: highest periodicity of the last second, mean of 0.1 s
-        [0.4802, 0.2796], // sum: likeness of low's bins to those of 48 ms ago, mean of 0.1 s
-        [-0.0711, 0.0885], // sum: peakedness of the treble over 40 ms, mean of 0.1 s
-        [-0.0724, 0.0767], // sum: peakedness of the treble over 0.16 s, mean of 0.1 s
-        [0.7388, 0.8110], // sum: rise of 31–94 Hz over the room, 10 dB, mean of 0.5 s
+        [0.4802, 0.2796], // sum: spectral correlation of low with 48 ms ago, mean of 0.1 s
+        [-0.0711, 0.0885], // sum: kurtosis of the treble over 40 ms, mean of 0.1 s
+        [-0.0724, 0.0767], // sum: kurtosis of the treble over 0.16 s, mean of 0.1 s
+        [0.7388, 0.8110], // sum: rise of 31–94 Hz over the noise floor, 10 dB, mean of 0.5 s
         [0.7745, 0.7802], // sum: rise of 94–203 Hz, mean of 0.5 s
         [0.7343, 0.7139], // sum: rise of 203–406 Hz, mean of 0.5 s
         [0.7331, 0.6510], // sum: rise of 406–812 Hz, mean of 0.5 s
         [0.6796, 0.6045], // sum: rise of 812–1625 Hz, mean of 0.5 s
         [0.5330, 0.5277], // sum: rise of 1625–3400 Hz, mean of 0.5 s
-        [-0.0920, 0.7761], // sum: rise of low less twice the room's unrest there, 10 dB, mean of 0.5 s
-        [-0.2554, 0.6293], // sum: rise of middle less twice the room's unrest there, 10 dB, mean of 0.5 s
+        [-0.0920, 0.7761], // sum: rise of low less twice its floor variance, 10 dB, mean of 0.5 s
+        [-0.2554, 0.6293], // sum: rise of middle less twice its floor variance, 10 dB, mean of 0.5 s
         [-0.8365, 0.7341], // sum: excess of 31–94 Hz over 94–203 Hz, 10 dB, mean of 0.5 s
         [-0.3982, 0.7440], // sum: excess of 94–203 Hz over 203–406 Hz, mean of 0.5 s
         [0.0817, 0.4502], // sum: excess of 203–406 Hz over 406–812 Hz, mean of 0.5 s
@@ -129,23 +131,23 @@ pub static TRAINED: PairModel = PairModel {
         [0.2443, 0.0794], // sum: change of the middle's shape from frame to frame, 10 dB, mean of 0.5 s
         [0.3243, 0.2975], // sum: steepest step of low in 0.1 s, 10 dB, mean of 0.5 s
         [0.2029, 0.2116], // sum: steepest step of middle in 0.1 s, mean of 0.5 s
-        [0.2500, 0.1474], // sum: part of the last 4 s in which low had risen, mean of 0.5 s
-        [0.3029, 0.1967], // sum: part of the last 4 s in which middle had risen, mean of 0.5 s
-        [-0.8652, 0.9064], // sum: low over its own peak of the seconds before, 10 dB, mean of 0.5 s
-        [-0.7313, 0.8539], // sum: middle over its own peak of the seconds before, mean of 0.5 s
+        [0.2500, 0.1474], // sum: activity of low in the last 4 s, mean of 0.5 s
+        [0.3029, 0.1967], // sum: activity of middle in the last 4 s, mean of 0.5 s
+        [-0.8652, 0.9064], // sum: ratio of low to its own peak, 10 dB, mean of 0.5 s
+        [-0.7313, 0.8539], // sum: ratio of middle to its own peak, mean of 0.5 s
         [0.4628, 0.1660], // sum: highest periodicity of the last second, mean of 0.5 s
-        [0.4811, 0.2424], // sum: likeness of low's bins to those of 48 ms ago, mean of 0.5 s
-        [-0.0744, 0.0647], // sum: peakedness of the treble over 40 ms, mean of 0.5 s
-        [-0.0754, 0.0619], // sum: peakedness of the treble over 0.16 s, mean of 0.5 s
+        [0.4811, 0.2424], // sum: spectral correlation of low with 48 ms ago, mean of 0.5 s
+        [-0.0744, 0.0647], // sum: kurtosis of the treble over 40 ms, mean of 0.5 s
+        [-0.0754, 0.0619], // sum: kurtosis of the treble over 0.16 s, mean of 0.5 s
         [-0.1772, 0.4975], // difference: log-odds, 10
-        [0.9067, 1.3333], // difference: rise of 31–94 Hz over the room, 10 dB
+        [0.9067, 1.3333], // difference: rise of 31–94 Hz over the noise floor, 10 dB
         [0.9792, 1.2971], // difference: rise of 94–203 Hz
         [0.8442, 1.0314], // difference: rise of 203–406 Hz
         [1.0007, 0.9504], // difference: rise of 406–812 Hz
         [0.9084, 0.9139], // difference: rise of 812–1625 Hz
         [0.7088, 0.8245], // difference: rise of 1625–3400 Hz
-        [0.2987, 1.2226], // difference: rise of low less twice the room's unrest there, 10 dB
-        [-0.0718, 0.9527], // difference: rise of middle less twice the room's unrest there, 10 dB
+        [0.2987, 1.2226], // difference: rise of low less twice its floor variance, 10 dB
+        [-0.0718, 0.9527], // difference: rise of middle less twice its floor variance, 10 dB
         [-0.5977, 0.7907], // difference: excess of 31–94 Hz over 94–203 Hz, 10 dB
         [-0.4356, 1.1079], // difference: excess of 94–203 Hz over 203–406 Hz
         [-1.5653, 1.7027], // difference: excess of 203–406 Hz over 406–812 Hz
@@ -170,22 +172,22 @@ pub static TRAINED: PairModel = PairModel {
         [0.2438, 0.1028], // difference: change of the middle's shape from frame to frame, 10 dB
         [0.2540, 0.3437], // difference: steepest step of low in 0.1 s, 10 dB
         [0.2688, 0.4771], // difference: steepest step of middle in 0.1 s
-        [0.1854, 0.1809], // difference: part of the last 4 s in which low had risen
-        [0.3278, 0.1922], // difference: part of the last 4 s in which middle had risen
-        [-0.5044, 1.1766], // difference: low over its own peak of the seconds before, 10 dB
-        [-0.4578, 1.0226], // difference: middle over its own peak of the seconds before
+        [0.1854, 0.1809], // difference: activity of low in the last 4 s
+        [0.3278, 0.1922], // difference: activity of middle in the last 4 s
+        [-0.5044, 1.1766], // difference: ratio of low to its own peak, 10 dB
+        [-0.4578, 1.0226], // difference: ratio of middle to its own peak
         [0.4496, 0.1946], // difference: highest periodicity of the last second
-        [0.4873, 0.4184], // difference: likeness of low's bins to those of 48 ms ago
-        [-0.0703, 0.1132], // difference: peakedness of the treble over 40 ms
-        [-0.0714, 0.0848], // difference: peakedness of the treble over 0.16 s
-        [0.8555, 1.2494], // difference: rise of 31–94 Hz over the room, 10 dB, mean of 0.1 s
+        [0.4873, 0.4184], // difference: spectral correlation of low with 48 ms ago
+        [-0.0703, 0.1132], // difference: kurtosis of the treble over 40 ms
+        [-0.0714, 0.0848], // difference: kurtosis of the treble over 0.16 s
+        [0.8555, 1.2494], // difference: rise of 31–94 Hz over the noise floor, 10 dB, mean of 0.1 s
         [0.9173, 1.2135], // difference: rise of 94–203 Hz, mean of 0.1 s
         [0.7902, 0.9338], // difference: rise of 203–406 Hz, mean of 0.1 s
         [0.9003, 0.8329], // difference: rise of 406–812 Hz, mean of 0.1 s
         [0.8243, 0.7864], // difference: rise of 812–1625 Hz, mean of 0.1 s
         [0.6472, 0.6982], // difference: rise of 1625–3400 Hz, mean of 0.1 s
-        [0.2515, 1.1277], // difference: rise of low less twice the room's unrest there, 10 dB, mean of 0.1 s
-        [-0.1524, 0.8318], // difference: rise of middle less twice the room's unrest there, 10 dB, mean of 0.1 s
+        [0.2515, 1.1277], // difference: rise of low less twice its floor variance, 10 dB, mean of 0.1 s
+        [-0.1524, 0.8318], // difference: rise of middle less twice its floor variance, 10 dB, mean of 0.1 s
         [-0.5673, 0.6026], // difference: excess of 31–94 Hz over 94–203 Hz, 10 dB, mean of 0.1 s
         [-0.4457, 0.9595], // difference: excess of 94–203 Hz over 203–406 Hz, mean of 0.1 s
         [-1.5155, 1.5283], // difference: excess of 203–406 Hz over 406–812 Hz, mean of 0.1 s
@@ -210,22 +212,22 @@ pub static TRAINED: PairModel = PairModel {
         [0.2454, 0.0910], // difference: change of the middle's shape from frame to frame, 10 dB, mean of 0.1 s
         [0.2356, 0.2306], // difference: steepest step of low in 0.1 s, 10 dB, mean of 0.1 s
         [0.2417, 0.3138], // difference: steepest step of middle in 0.1 s, mean of 0.1 s
-        [0.1792, 0.1784], // difference: part of the last 4 s in which low had risen, mean of 0.1 s
-        [0.3207, 0.1939], // difference: part of the last 4 s in which middle had risen, mean of 0.1 s
-        [-0.5607, 1.0634], // difference: low over its own peak of the seconds before, 10 dB, mean of 0.1 s
-        [-0.5633, 0.9120], // difference: middle over its own peak of the seconds before, mean of 0.1 s
+        [0.1792, 0.1784], // difference: activity of low in the last 4 s, mean of 0.1 s
+        [0.3207, 0.1939], // difference: activity of middle in the last 4 s, mean of 0.1 s
+        [-0.5607, 1.0634], // difference: ratio of low to its own peak, 10 dB, mean of 0.1 s
+        [-0.5633, 0.9120], // difference: ratio of middle to its own peak, mean of 0.1 s
         [0.4609, 0.1947], // difference: highest periodicity of the last second, mean of 0.1 s
-        [0.4695, 0.2863], // difference: likeness of low's bins to those of 48 ms ago, mean of 0.1 s
-        [-0.0711, 0.0885], // difference: peakedness of the treble over 40 ms, mean of 0.1 s
-        [-0.0724, 0.0767], // difference: peakedness of the treble over 0.16 s, mean of 0.1 s
-        [0.7188, 1.0559], // difference: rise of 31–94 Hz over the room, 10 dB, mean of 0.5 s
+        [0.4695, 0.2863], // difference: spectral correlation of low with 48 ms ago, mean of 0.1 s
+        [-0.0711, 0.0885], // difference: kurtosis of the treble over 40 ms, mean of 0.1 s
+        [-0.0724, 0.0767], // difference: kurtosis of the treble over 0.16 s, mean of 0.1 s
+        [0.7188, 1.0559], // difference: rise of 31–94 Hz over the noise floor, 10 dB, mean of 0.5 s
         [0.7638, 1.0222], // difference: rise of 94–203 Hz, mean of 0.5 s
         [0.6581, 0.7632], // difference: rise of 203–406 Hz, mean of 0.5 s
         [0.7276, 0.6497], // difference: rise of 406–812 Hz, mean of 0.5 s
         [0.6758, 0.6065], // difference: rise of 812–1625 Hz, mean of 0.5 s
         [0.5303, 0.5289], // difference: rise of 1625–3400 Hz, mean of 0.5 s
-        [0.1457, 0.9241], // difference: rise of low less twice the room's unrest there, 10 dB, mean of 0.5 s
-        [-0.2752, 0.6465], // difference: rise of middle less twice the room's unrest there, 10 dB, mean of 0.5 s
+        [0.1457, 0.9241], // difference: rise of low less twice its floor variance, 10 dB, mean of 0.5 s
+        [-0.2752, 0.6465], // difference: rise of middle less twice its floor variance, 10 dB, mean of 0.5 s
         [-0.5217, 0.5163], // difference: excess of 31–94 Hz over 94–203 Hz, 10 dB, mean of 0.5 s
         [-0.4704, 0.8446], // difference: excess of 94–203 Hz over 203–406 Hz, mean of 0.5 s
         [-1.5044, 1.2922], // difference: excess of 203–406 Hz over 406–812 Hz, mean of 0.5 s
@@ -250,70 +252,70 @@ pub static TRAINED: PairModel = PairModel {
         [0.2435, 0.0800], // difference: change of the middle's shape from frame to frame, 10 dB, mean of 0.5 s
         [0.2013, 0.1586], // difference: steepest step of low in 0.1 s, 10 dB, mean of 0.5 s
         [0.2029, 0.2116], // difference: steepest step of middle in 0.1 s, mean of 0.5 s
-        [0.1608, 0.1680], // difference: part of the last 4 s in which low had risen, mean of 0.5 s
-        [0.3026, 0.1967], // difference: part of the last 4 s in which middle had risen, mean of 0.5 s
-        [-0.6661, 0.9669], // difference: low over its own peak of the seconds before, 10 dB, mean of 0.5 s
-        [-0.7313, 0.8539], // difference: middle over its own peak of the seconds before, mean of 0.5 s
+        [0.1608, 0.1680], // difference: activity of low in the last 4 s, mean of 0.5 s
+        [0.3026, 0.1967], // difference: activity of middle in the last 4 s, mean of 0.5 s
+        [-0.6661, 0.9669], // difference: ratio of low to its own peak, 10 dB, mean of 0.5 s
+        [-0.7313, 0.8539], // difference: ratio of middle to its own peak, mean of 0.5 s
         [0.4846, 0.1752], // difference: highest periodicity of the last second, mean of 0.5 s
-        [0.4486, 0.2570], // difference: likeness of low's bins to those of 48 ms ago, mean of 0.5 s
-        [-0.0744, 0.0647], // difference: peakedness of the treble over 40 ms, mean of 0.5 s
-        [-0.0754, 0.0619], // difference: peakedness of the treble over 0.16 s, mean of 0.5 s
-        [-1.5771, 1.2564], // share that differs, 10 dB
-        [0.2511, 0.4048], // how long the difference has stood
-        [-1.4517, 1.0216], // what of 0.4 to 0.9 kHz is not one wave, 10 dB
-        [-1.2008, 0.8864], // of 0.9 to 2 kHz
-        [-0.9350, 0.8595], // of 2 to 3.3 kHz
-        [0.6723, 1.4149], // rise of what is one wave of 0.4 to 0.9 kHz, 10 dB
-        [0.6672, 1.4159], // of 0.9 to 2 kHz
-        [0.6400, 1.2911], // of 2 to 3.3 kHz
-        [0.6253, 0.8887], // above: rise of 5.6–7 kHz over the room, 10 dB
-        [0.6714, 0.9239], // above: rise of 4.4–5.6 kHz
-        [0.4132, 0.9168], // above: rise of the quietest third of 4.4–7 kHz
-        [-0.0313, 0.9376], // above: rise of all of it less twice the room's unrest
-        [0.0410, 0.5278], // above: climb in 48 ms, 10 dB
-        [0.1666, 0.8905], // above: climb in 0.2 s
-        [0.3841, 0.5729], // above: fall from its peak in 0.24 s, 10 dB
-        [0.2362, 0.2975], // above: deviation in 0.16 s, 10 dB
-        [0.1550, 0.3605], // above: steepest step in 0.1 s, 10 dB
-        [0.1706, 0.1427], // above: part of the last 4 s in which it had risen
-        [-0.4460, 1.0562], // above: level over its own peak of the seconds before, 10 dB
-        [-0.8129, 0.8851], // above: what of 5.6–7 kHz is not one wave, 10 dB
-        [-0.8537, 0.8930], // above: what of 4.4–5.6 kHz is not one wave
-        [0.5806, 1.3899], // above: rise of what is one wave of 5.6–7 kHz, 10 dB
-        [0.5986, 1.4394], // above: rise of what is one wave of 4.4–5.6 kHz
-        [1.1352, 1.4419], // above: excess of 0.4–3.4 kHz over it, 10 dB
-        [0.5854, 0.7928], // above: rise of 5.6–7 kHz over the room, 10 dB, mean of 0.1 s
-        [0.6281, 0.8275], // above: rise of 4.4–5.6 kHz, mean of 0.1 s
-        [0.3730, 0.8281], // above: rise of the quietest third of 4.4–7 kHz, mean of 0.1 s
-        [-0.0584, 0.8413], // above: rise of all of it less twice the room's unrest, mean of 0.1 s
-        [0.0406, 0.2082], // above: climb in 48 ms, 10 dB, mean of 0.1 s
-        [0.1447, 0.5736], // above: climb in 0.2 s, mean of 0.1 s
-        [0.3690, 0.4474], // above: fall from its peak in 0.24 s, 10 dB, mean of 0.1 s
-        [0.2213, 0.2297], // above: deviation in 0.16 s, 10 dB, mean of 0.1 s
-        [0.1451, 0.2458], // above: steepest step in 0.1 s, 10 dB, mean of 0.1 s
-        [0.1648, 0.1412], // above: part of the last 4 s in which it had risen, mean of 0.1 s
-        [-0.4786, 0.9383], // above: level over its own peak of the seconds before, 10 dB, mean of 0.1 s
-        [-0.7677, 0.8166], // above: what of 5.6–7 kHz is not one wave, 10 dB, mean of 0.1 s
-        [-0.8081, 0.8223], // above: what of 4.4–5.6 kHz is not one wave, mean of 0.1 s
-        [0.5263, 1.3192], // above: rise of what is one wave of 5.6–7 kHz, 10 dB, mean of 0.1 s
-        [0.5415, 1.3682], // above: rise of what is one wave of 4.4–5.6 kHz, mean of 0.1 s
-        [1.0969, 1.2745], // above: excess of 0.4–3.4 kHz over it, 10 dB, mean of 0.1 s
-        [0.4810, 0.6200], // above: rise of 5.6–7 kHz over the room, 10 dB, mean of 0.5 s
-        [0.5146, 0.6493], // above: rise of 4.4–5.6 kHz, mean of 0.5 s
-        [0.2667, 0.6598], // above: rise of the quietest third of 4.4–7 kHz, mean of 0.5 s
-        [-0.1211, 0.6688], // above: rise of all of it less twice the room's unrest, mean of 0.5 s
-        [0.0291, 0.0678], // above: climb in 48 ms, 10 dB, mean of 0.5 s
-        [0.1067, 0.2333], // above: climb in 0.2 s, mean of 0.5 s
-        [0.3341, 0.3325], // above: fall from its peak in 0.24 s, 10 dB, mean of 0.5 s
-        [0.1900, 0.1590], // above: deviation in 0.16 s, 10 dB, mean of 0.5 s
-        [0.1235, 0.1708], // above: steepest step in 0.1 s, 10 dB, mean of 0.5 s
-        [0.1476, 0.1329], // above: part of the last 4 s in which it had risen, mean of 0.5 s
-        [-0.5531, 0.8285], // above: level over its own peak of the seconds before, 10 dB, mean of 0.5 s
-        [-0.6700, 0.6599], // above: what of 5.6–7 kHz is not one wave, 10 dB, mean of 0.5 s
-        [-0.7108, 0.6635], // above: what of 4.4–5.6 kHz is not one wave, mean of 0.5 s
-        [0.3802, 1.1458], // above: rise of what is one wave of 5.6–7 kHz, 10 dB, mean of 0.5 s
-        [0.3879, 1.1953], // above: rise of what is one wave of 4.4–5.6 kHz, mean of 0.5 s
-        [1.0577, 1.1118], // above: excess of 0.4–3.4 kHz over it, 10 dB, mean of 0.5 s
+        [0.4486, 0.2570], // difference: spectral correlation of low with 48 ms ago, mean of 0.5 s
+        [-0.0744, 0.0647], // difference: kurtosis of the treble over 40 ms, mean of 0.5 s
+        [-0.0754, 0.0619], // difference: kurtosis of the treble over 0.16 s, mean of 0.5 s
+        [-1.5771, 1.2564], // difference ratio, 10 dB
+        [0.2511, 0.4048], // sustained time of the difference
+        [-1.4517, 1.0216], // decorrelation of 0.4 to 0.9 kHz, 10 dB
+        [-1.2008, 0.8864], // decorrelation of 0.9 to 2 kHz
+        [-0.9350, 0.8595], // decorrelation of 2 to 3.3 kHz
+        [0.6723, 1.4149], // coherent rise of 0.4 to 0.9 kHz, 10 dB
+        [0.6672, 1.4159], // coherent rise of 0.9 to 2 kHz
+        [0.6400, 1.2911], // coherent rise of 2 to 3.3 kHz
+        [0.6253, 0.8887], // high band: rise of 5.6–7 kHz over the noise floor, 10 dB
+        [0.6714, 0.9239], // high band: rise of 4.4–5.6 kHz
+        [0.4132, 0.9168], // high band: rise of the quietest third of 4.4–7 kHz
+        [-0.0313, 0.9376], // high band: rise of all of it less twice its floor variance
+        [0.0410, 0.5278], // high band: climb in 48 ms, 10 dB
+        [0.1666, 0.8905], // high band: climb in 0.2 s
+        [0.3841, 0.5729], // high band: fall from its peak in 0.24 s, 10 dB
+        [0.2362, 0.2975], // high band: deviation in 0.16 s, 10 dB
+        [0.1550, 0.3605], // high band: steepest step in 0.1 s, 10 dB
+        [0.1706, 0.1427], // high band: activity in the last 4 s
+        [-0.4460, 1.0562], // high band: ratio to its own peak, 10 dB
+        [-0.8129, 0.8851], // high band: decorrelation of 5.6–7 kHz, 10 dB
+        [-0.8537, 0.8930], // high band: decorrelation of 4.4–5.6 kHz
+        [0.5806, 1.3899], // high band: coherent rise of 5.6–7 kHz, 10 dB
+        [0.5986, 1.4394], // high band: coherent rise of 4.4–5.6 kHz
+        [1.1352, 1.4419], // high band: excess of 0.4–3.4 kHz over it, 10 dB
+        [0.5854, 0.7928], // high band: rise of 5.6–7 kHz over the noise floor, 10 dB, mean of 0.1 s
+        [0.6281, 0.8275], // high band: rise of 4.4–5.6 kHz, mean of 0.1 s
+        [0.3730, 0.8281], // high band: rise of the quietest third of 4.4–7 kHz, mean of 0.1 s
+        [-0.0584, 0.8413], // high band: rise of all of it less twice its floor variance, mean of 0.1 s
+        [0.0406, 0.2082], // high band: climb in 48 ms, 10 dB, mean of 0.1 s
+        [0.1447, 0.5736], // high band: climb in 0.2 s, mean of 0.1 s
+        [0.3690, 0.4474], // high band: fall from its peak in 0.24 s, 10 dB, mean of 0.1 s
+        [0.2213, 0.2297], // high band: deviation in 0.16 s, 10 dB, mean of 0.1 s
+        [0.1451, 0.2458], // high band: steepest step in 0.1 s, 10 dB, mean of 0.1 s
+        [0.1648, 0.1412], // high band: activity in the last 4 s, mean of 0.1 s
+        [-0.4786, 0.9383], // high band: ratio to its own peak, 10 dB, mean of 0.1 s
+        [-0.7677, 0.8166], // high band: decorrelation of 5.6–7 kHz, 10 dB, mean of 0.1 s
+        [-0.8081, 0.8223], // high band: decorrelation of 4.4–5.6 kHz, mean of 0.1 s
+        [0.5263, 1.3192], // high band: coherent rise of 5.6–7 kHz, 10 dB, mean of 0.1 s
+        [0.5415, 1.3682], // high band: coherent rise of 4.4–5.6 kHz, mean of 0.1 s
+        [1.0969, 1.2745], // high band: excess of 0.4–3.4 kHz over it, 10 dB, mean of 0.1 s
+        [0.4810, 0.6200], // high band: rise of 5.6–7 kHz over the noise floor, 10 dB, mean of 0.5 s
+        [0.5146, 0.6493], // high band: rise of 4.4–5.6 kHz, mean of 0.5 s
+        [0.2667, 0.6598], // high band: rise of the quietest third of 4.4–7 kHz, mean of 0.5 s
+        [-0.1211, 0.6688], // high band: rise of all of it less twice its floor variance, mean of 0.5 s
+        [0.0291, 0.0678], // high band: climb in 48 ms, 10 dB, mean of 0.5 s
+        [0.1067, 0.2333], // high band: climb in 0.2 s, mean of 0.5 s
+        [0.3341, 0.3325], // high band: fall from its peak in 0.24 s, 10 dB, mean of 0.5 s
+        [0.1900, 0.1590], // high band: deviation in 0.16 s, 10 dB, mean of 0.5 s
+        [0.1235, 0.1708], // high band: steepest step in 0.1 s, 10 dB, mean of 0.5 s
+        [0.1476, 0.1329], // high band: activity in the last 4 s, mean of 0.5 s
+        [-0.5531, 0.8285], // high band: ratio to its own peak, 10 dB, mean of 0.5 s
+        [-0.6700, 0.6599], // high band: decorrelation of 5.6–7 kHz, 10 dB, mean of 0.5 s
+        [-0.7108, 0.6635], // high band: decorrelation of 4.4–5.6 kHz, mean of 0.5 s
+        [0.3802, 1.1458], // high band: coherent rise of 5.6–7 kHz, 10 dB, mean of 0.5 s
+        [0.3879, 1.1953], // high band: coherent rise of 4.4–5.6 kHz, mean of 0.5 s
+        [1.0577, 1.1118], // high band: excess of 0.4–3.4 kHz over it, 10 dB, mean of 0.5 s
     ],
     weights: Cow::Borrowed(&[
         0.2638, 0.3783, -0.0395, 0.3282, 0.4068, 0.3354, -0.2172, -0.3126, 0.2320, 0.5483, -0.0183,
