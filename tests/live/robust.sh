@@ -178,7 +178,7 @@ gaps() {
 devices_out() {
     local t ears voice rows gaps code=0
     # By its name, or another loudspeaker takes its place.
-    configured "$room/out.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nloudspeaker = "speakers"\n'
+    configured "$room/out.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\noutput = "speakers"\n'
     start_kiosk out --no-attract --config "$room/out.toml" --trace "$room/out.csv" --for 28
     within 30 grep -q 'supervisor: microphone: ' "$room/out.err" || true
     within 30 grep -q 'supervisor: loudspeaker: ' "$room/out.err" || true

@@ -220,7 +220,7 @@ later() {
 # ---- whoever sets the kiosk up blows three times, at two capsules ----------------------------------------------------
 doctor_blow() {
     local code=0 doctor pair heard level
-    printf '[audio]\nmicrophone = "pair"\nmicrophone_channel = 1\nsecond_capsule_channel = 2\n[exhibits]\nfolder = "%s"\n' \
+    printf '[audio]\nmicrophone = "pair"\nmicrophone_channel = 1\nsecond_microphone_channel = 2\n[exhibits]\nfolder = "%s"\n' \
         "$root/exhibits" >"$room/pair.toml"
     pair=$(pactl load-module module-remap-source source_name=pair master=air.monitor channels=2 \
         channel_map=front-left,front-right master_channel_map=aux0,aux0 remix=no)
@@ -418,7 +418,7 @@ listens_times() { [ "$(grep -c 'supervisor: microphone: ' "$room/$1.err")" -ge "
 # ---- the loudspeaker is pulled out and put in again: it sounds again, and the motion never stopped -------------------
 speaker_replugged() {
     local i rows gaps
-    configured "$room/mute.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nloudspeaker = "speakers"\n'
+    configured "$room/mute.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\noutput = "speakers"\n'
     start_kiosk mute --no-attract --config "$room/mute.toml" --trace "$room/mute.csv" --for 36
     within 30 grep -q 'supervisor: loudspeaker: ' "$room/mute.err"
     for i in 1 2 3; do

@@ -579,7 +579,7 @@ fn a_pin_becomes_the_line_that_the_configuration_takes() {
     assert!(output.status.success() && line.starts_with("pin = \"$argon2id$") && !line.contains("271828"), "{line}");
     desk.write("site.toml", format!("[staff]\n{line}"));
     desk.soffio(&["check", "site.toml"]).done();
-    let config = soffio_config::Config::load(Some(&desk.path("site.toml"))).expect("good").0;
+    let config = soffio_config::Config::load(Some(&desk.path("site.toml"))).expect("good").config;
     assert!(config.staff.pin.matches("271828"));
 }
 

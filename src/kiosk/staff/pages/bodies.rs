@@ -4,7 +4,7 @@ use egui::{Grid, Ui};
 
 use super::plot::Course;
 use super::style::{BAD, ROW};
-use crate::staff::sight::Sight;
+use crate::staff::panel_input::PanelInput;
 use soffio_simulation::STEPS_PER_SECOND;
 
 /// A joint that is farther open than this is told, m or rad.
@@ -23,8 +23,8 @@ pub struct Bodies {
 
 impl Bodies {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight) {
-        let frame = sight.frame;
+    pub fn show(&mut self, ui: &mut Ui, input: &PanelInput) {
+        let frame = input.frame;
         if self.exhibit != frame.exhibit.id {
             *self = Self { exhibit: frame.exhibit.id.clone(), ..Self::default() };
         }

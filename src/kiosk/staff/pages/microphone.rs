@@ -4,7 +4,7 @@ use egui::{Color32, DragValue, Grid, Sense, Ui, pos2, vec2};
 
 use super::style::{BAD, GOOD, ROW, row};
 use crate::staff::edit::{Changes, with_key};
-use crate::staff::sight::Sight;
+use crate::staff::panel_input::PanelInput;
 use soffio_config::remedies;
 use soffio_detector::{BlowEstimate, Reason};
 
@@ -60,8 +60,15 @@ impl Calibration {
 
 impl Microphone {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, changes: &mut Changes, said: &mut Option<String>) {
-        let frame = sight.frame;
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        input: &PanelInput,
+        may: bool,
+        changes: &mut Changes,
+        said: &mut Option<String>,
+    ) {
+        let frame = input.frame;
         let heard = &frame.current.breath.estimate;
         if !frame.hears {
             ui.colored_label(BAD, format!("nothing arrives; {}", frame.load.audio.input));
@@ -88,7 +95,7 @@ impl Microphone {
             row(ui, "detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
             row(ui, "breath at the lips", format!("{:5.2} m/s", heard.speed), false);
             let capsules = frame.load.audio.capsules;
-            row(ui, "capsules", capsules.to_string(), sight.site.audio.second_capsule_channel > 0 && capsules < 2);
+            row(ui, "capsules", capsules.to_string(), input.site.audio.second_microphone_channel > 0 && capsules < 2);
         });
         ui.separator();
         let mut well = true;
@@ -103,11 +110,11 @@ impl Microphone {
             self.range = None;
         }
         ui.separator();
-        ui.add_enabled_ui(may && sight.file.is_some(), |ui| self.sensitivity(ui, sight, changes, said));
+        ui.add_enabled_ui(may && input.file.is_some(), |ui| self.sensitivity(ui, input, changes, said));
     }
 
-    fn sensitivity(&mut self, ui: &mut Ui, sight: &Sight, changes: &mut Changes, said: &mut Option<String>) {
-        let now = sight.site.breath.sensitivity_db;
+    fn sensitivity(&mut self, ui: &mut Ui, input: &PanelInput, changes: &mut Changes, said: &mut Option<String>) {
+        let now = input.site.breath.sensitivity_db;
         let mut wanted = self.sensitivity.unwrap_or(now);
         let mut save = None;
         ui.horizontal(|ui| {
@@ -124,7 +131,7 @@ impl Microphone {
                 }
             }
             Some(calibration) if !calibration.is_over() => {
-                calibration.note(&sight.frame.current.breath.estimate);
+                calibration.note(&input.frame.current.breath.estimate);
                 let left = BREATHS - calibration.breaths;
                 ui.label(format!(
                     "Blow at the microphone from where visitors stand, as they would, a second or two, {left} times more."
@@ -147,7 +154,7 @@ impl Microphone {
                 }
             }
         }
-        if let Some((value, file)) = save.zip(sight.file) {
+        if let Some((value, file)) = save.zip(input.file) {
             let made = changes.make(file, |text| with_key(text, "breath", "sensitivity_db", value));
             *said = Some(made.err().unwrap_or_else(|| format!("Saved in {}.", file.display())));
         }

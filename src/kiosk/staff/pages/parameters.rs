@@ -9,7 +9,7 @@ use egui::{CollapsingHeader, DragValue, Label, RichText, TextEdit, Ui};
 
 use super::style::BAD;
 use crate::staff::edit::{Changes, Number, Step, four_digits, numbers, with_number};
-use crate::staff::sight::Sight;
+use crate::staff::panel_input::PanelInput;
 use soffio_exhibit::SIDECAR;
 
 /// Share of its value by which a number changes for a point of dragging.
@@ -28,11 +28,18 @@ pub struct Parameters {
 
 impl Parameters {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, changes: &mut Changes, said: &mut Option<String>) {
-        if let Err(error) = self.read(&sight.frame.exhibit.folder.join(SIDECAR)) {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        input: &PanelInput,
+        may: bool,
+        changes: &mut Changes,
+        said: &mut Option<String>,
+    ) {
+        if let Err(error) = self.read(&input.frame.exhibit.folder.join(SIDECAR)) {
             ui.colored_label(BAD, error);
         }
-        if let Some(report) = sight.work_says {
+        if let Some(report) = input.exhibit_problem {
             ui.colored_label(
                 BAD,
                 "As it is saved it does not load; the last good one is on show. Take the change back, or mend it:",

@@ -3,8 +3,8 @@
 use egui::{Grid, Ui};
 
 use super::style::{BAD, ROW, row};
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
+use crate::staff::action::StaffAction;
+use crate::staff::panel_input::PanelInput;
 use crate::venue::loudness::NightBy;
 use soffio_devices::audio::{DeviceState, SoundDelay};
 use soffio_devices::controllers::State;
@@ -14,44 +14,44 @@ use soffio_simulation::MotionMode;
 const SHORT_BLOCK_MS: f64 = 5.0;
 
 /// The buttons of every day, then all numbers.
-pub fn show(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
-    buttons(ui, sight, may, wishes);
-    for says in sight.site_says {
+pub fn show(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
+    buttons(ui, input, may, actions);
+    for says in input.config_problems {
         ui.colored_label(BAD, format!("configuration: {says}"));
     }
-    for remedy in sight.frame.load.microphone.remedies() {
+    for remedy in input.frame.load.microphone.remedies() {
         ui.colored_label(BAD, format!("microphone: {remedy}"));
     }
     ui.separator();
-    Grid::new("numbers").num_columns(2).min_row_height(ROW).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, sight));
+    Grid::new("numbers").num_columns(2).min_row_height(ROW).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, input));
 }
 
-fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
-    let muted = sight.frame.load.loudness.muted;
-    let early = sight.house.is_early();
+fn buttons(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
+    let muted = input.frame.load.loudness.muted;
+    let early = input.venue.is_early();
     ui.add_enabled_ui(may, |ui| {
         ui.horizontal_wrapped(|ui| {
             let mut all = vec![
-                ("Clean the glass", Wish::Clean),
-                (if muted { "Sound on" } else { "Mute" }, Wish::Mute),
-                ("Night", Wish::Night),
-                ("Reset", Wish::Reset),
-                ("Reload exhibit", Wish::Reload),
+                ("Clean the glass", StaffAction::Clean),
+                (if muted { "Sound on" } else { "Mute" }, StaffAction::Mute),
+                ("Night", StaffAction::Night),
+                ("Reset", StaffAction::Reset),
+                ("Reload exhibit", StaffAction::Reload),
             ];
-            if early || !sight.house.is_open() {
-                all.push((if early { "Close the house again" } else { "Open now" }, Wish::Open));
+            if early || !input.venue.is_open() {
+                all.push((if early { "Close the house again" } else { "Open now" }, StaffAction::Open));
             }
-            if sight.site.visit.breath {
+            if input.site.visit.breath {
                 all.extend([
-                    ("Chirp", Wish::Chirp),
-                    ("New foam", Wish::FoamChanged),
-                    ("Listen anew", Wish::ListenAnew),
+                    ("Chirp", StaffAction::SelfTest),
+                    ("New foam", StaffAction::FoamChanged),
+                    ("Listen anew", StaffAction::ResetSelfTest),
                 ]);
             }
-            all.push(("End the kiosk", Wish::Close));
-            for (name, asked) in all {
+            all.push(("End the kiosk", StaffAction::Close));
+            for (name, action) in all {
                 if ui.button(name).clicked() {
-                    wishes.push(asked);
+                    actions.push(action);
                 }
             }
         });
@@ -59,29 +59,29 @@ fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
 }
 
 /// The numbers, one a row.
-fn numbers(ui: &mut Ui, sight: &Sight) {
-    house(ui, sight);
-    microphone(ui, sight);
-    motion(ui, sight);
-    picture(ui, sight);
-    loudspeaker(ui, sight);
-    loudness(ui, sight);
+fn numbers(ui: &mut Ui, input: &PanelInput) {
+    venue(ui, input);
+    microphone(ui, input);
+    motion(ui, input);
+    picture(ui, input);
+    output(ui, input);
+    loudness(ui, input);
 }
 
-fn house(ui: &mut Ui, sight: &Sight) {
-    let house = match (sight.house.is_open(), sight.house.is_early()) {
+fn venue(ui: &mut Ui, input: &PanelInput) {
+    let venue = match (input.venue.is_open(), input.venue.is_early()) {
         (true, false) => "open",
         (true, true) => "open, by staff, before its hours",
         (false, _) => "closed",
     };
-    row(ui, "house", house, false);
-    row(ui, "breath", if sight.site.visit.breath { "wanted" } else { "off: visitors press and hold" }, false);
-    row(ui, "exhibit", sight.frame.exhibit.id.clone(), false);
+    row(ui, "house", venue, false);
+    row(ui, "breath", if input.site.visit.breath { "wanted" } else { "off: visitors press and hold" }, false);
+    row(ui, "exhibit", input.frame.exhibit.id.clone(), false);
 }
 
 /// The microphone, its foam, and what is heard of a breath.
-fn microphone(ui: &mut Ui, sight: &Sight) {
-    let frame = sight.frame;
+fn microphone(ui: &mut Ui, input: &PanelInput) {
+    let frame = input.frame;
     let breath = &frame.current.breath;
     let heard = &breath.estimate;
     let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
@@ -96,11 +96,11 @@ fn microphone(ui: &mut Ui, sight: &Sight) {
     row(ui, "level", level, heard.clipping);
     let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
     row(ui, "at full scale", clips, microphone.clips_lately());
-    let foam = sight.kept.care.foam(sight.kept.tally.breaths());
-    let lasts = u64::from(sight.site.care.foam_blows);
+    let foam = input.persisted.self_test.foam_breaths(input.persisted.counters.breaths());
+    let lasts = u64::from(input.site.maintenance.foam_blows);
     let said = if lasts > 0 { format!("{foam} breaths of {lasts}") } else { format!("{foam} breaths") };
     row(ui, "foam", said, lasts > 0 && foam >= lasts);
-    match &sight.kept.care.last {
+    match &input.persisted.self_test.last {
         Some((verdict, when)) => row(ui, "chirp", format!("{verdict}; {when}"), verdict.is_bad()),
         None => row(ui, "chirp", "none yet", false),
     }
@@ -110,8 +110,8 @@ fn microphone(ui: &mut Ui, sight: &Sight) {
 }
 
 /// What moves, and how well the thread that moves it keeps up.
-fn motion(ui: &mut Ui, sight: &Sight) {
-    let (frame, load) = (sight.frame, &sight.frame.load);
+fn motion(ui: &mut Ui, input: &PanelInput) {
+    let (frame, load) = (input.frame, &input.frame.load);
     let state = &frame.current.diagnostics;
     row(ui, "wind force", format!("{:.4} N", state.wind_force.length()), false);
     row(ui, "attract mode", if frame.attracts { "playing" } else { "waiting" }, false);
@@ -128,27 +128,27 @@ fn motion(ui: &mut Ui, sight: &Sight) {
     row(ui, "commands dropped", load.commands_dropped.to_string(), load.commands_dropped > 0);
 }
 
-fn picture(ui: &mut Ui, sight: &Sight) {
-    let vitals = &sight.vitals;
+fn picture(ui: &mut Ui, input: &PanelInput) {
+    let vitals = &input.vitals;
     let [width, height] = vitals.size;
     row(ui, "picture", format!("{:.1} ms, {width}x{height}", 1e3 * vitals.frame_s), false);
-    row(ui, "wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);
+    row(ui, "wind to picture", format!("{:.0} ms", 1e3 * vitals.onset_latency_s), vitals.onset_latency_s > 0.25);
     row(ui, "graphics", vitals.adapter, false);
-    for (kind, state) in &sight.frame.load.controllers {
+    for (kind, state) in &input.frame.load.controllers {
         let (State::Listening(said) | State::Waiting(said)) = state;
         row(ui, kind, said.clone(), false);
     }
 }
 
-fn loudspeaker(ui: &mut Ui, sight: &Sight) {
-    let audio = &sight.frame.load.audio;
+fn output(ui: &mut Ui, input: &PanelInput) {
+    let audio = &input.frame.load.audio;
     row(ui, "loudspeaker", audio.output.to_string(), false);
     if let Some(state) = &audio.hearing_loop {
         row(ui, "hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
     }
     if let Some(delay) = &audio.delay {
         row(ui, "step to sound", sound_delay(delay), false);
-        row(ui, "block", block(delay.block_s, sight.site.audio.block_ms, audio.shortest_block_s), false);
+        row(ui, "block", block(delay.block_s, input.site.audio.block_ms, audio.shortest_block_s), false);
     }
     row(ui, "late blocks", audio.xruns.to_string(), audio.xruns > 0);
     row(ui, "sounds lost", audio.lost.to_string(), audio.lost > 0);
@@ -174,8 +174,8 @@ fn block(plays_s: f64, wanted_ms: f64, shortest_s: Option<f64>) -> String {
     }
 }
 
-fn loudness(ui: &mut Ui, sight: &Sight) {
-    let loud = &sight.frame.load.loudness;
+fn loudness(ui: &mut Ui, input: &PanelInput) {
+    let loud = &input.frame.load.loudness;
     let muted = if loud.muted { ", muted" } else { "" };
     let eased = if loud.eased_db > 0.0 { format!(", {:.1} dB eased", loud.eased_db) } else { String::new() };
     row(ui, "volume", format!("{:.1} dB, {:+} steps{eased}{muted}", loud.volume_db, loud.steps), loud.muted);

@@ -5,9 +5,9 @@ use egui::{Align2, Color32, FontId, LayerId, Order, Ui, vec2};
 
 use super::display::Pattern;
 use super::style::{ROW, row};
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
-use crate::step::voice::{Trial, Tried};
+use crate::staff::action::StaffAction;
+use crate::staff::panel_input::PanelInput;
+use crate::step::instruments::{Audition, AuditionTarget};
 
 /// The timbre that loudspeakers are told apart by, and the speed of its hit, m/s.
 const CALL: (&str, f64) = ("wood", 1.0);
@@ -77,7 +77,7 @@ impl Test {
     }
 
     /// Draws the page.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
+    pub fn show(&mut self, ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
         ui.heading("Glass");
         let down = self.touches().count();
         ui.label(format!("Press the picture with one finger or many: a ring follows each. Down now: {down}."));
@@ -95,16 +95,20 @@ impl Test {
                 for (name, pan) in [("Left", -1.0), ("Both", 0.0), ("Right", 1.0)] {
                     if ui.button(name).clicked() {
                         let (timbre, speed) = CALL;
-                        wishes.push(Wish::Try(Trial { tried: Tried::Timbre(timbre), speed, pan }));
+                        actions.push(StaffAction::PlaySound(Audition {
+                            target: AuditionTarget::Timbre(timbre),
+                            speed,
+                            pan,
+                        }));
                     }
                 }
             });
         });
         ui.heading("Microphone");
-        let heard = &sight.frame.current.breath.estimate;
+        let heard = &input.frame.current.breath.estimate;
         egui::Grid::new("decision").num_columns(2).min_row_height(ROW).show(ui, |ui| {
             let decision = if heard.speed > 0.0 { "a breath" } else { "no breath" };
-            row(ui, "decision", if sight.frame.hears { decision } else { "nothing arrives" }, !sight.frame.hears);
+            row(ui, "decision", if input.frame.hears { decision } else { "nothing arrives" }, !input.frame.hears);
             row(ui, "because", format!("{:?}", heard.reason), false);
             row(ui, "sure by", format!("{:.2}", heard.confidence), false);
             row(ui, "speed", format!("{:.2} m/s", heard.speed), false);
