@@ -415,6 +415,8 @@ pub struct Staff {
     pub chord: Chord,
     /// Hash of the PIN that it asks for (`soffio pin`); without one the panel shows and changes nothing.
     pub pin: Pin,
+    /// Language of the panel; empty: the language that visitors find first, else English.
+    pub language: String,
     /// Time without a touch after which the panel closes, s.
     pub closes_s: f64,
     /// Keys that open the kiosk outside opening hours, and close it again.
@@ -435,6 +437,7 @@ impl Default for Staff {
         Self {
             chord: chord("S"),
             pin: Pin::default(),
+            language: String::new(),
             closes_s: 120.0,
             open: chord("O"),
             mute: chord("M"),

@@ -3,6 +3,7 @@
 use egui::{Ui, vec2};
 
 use crate::pages::canvas::INK;
+use crate::pages::ui_strings::TextId;
 use crate::staff::action::StaffAction;
 use crate::staff::edit::Changes;
 use crate::staff::gate::Gate;
@@ -129,7 +130,7 @@ impl StaffPanel {
         self.gate.poll(time);
         // A full-screen test picture covers the panel; a press shows the next one.
         if self.test.covers() {
-            self.test.paint(ui.ctx());
+            self.test.paint(ui.ctx(), input.texts);
             return actions;
         }
         let width = width(ui.ctx());
@@ -141,13 +142,13 @@ impl StaffPanel {
             ui.visuals_mut().override_text_color = Some(INK);
             (ui.visuals_mut().disabled_alpha, ui.visuals_mut().weak_text_alpha) = (PALER, PALER);
             if self.gate.has_pin() && !self.gate.is_open() {
-                keypad::show(ui, &mut self.gate, time, input.points_per_mm);
+                keypad::show(ui, &mut self.gate, time, input.points_per_mm, input.texts);
             } else {
                 self.pages(ui, input, &mut actions);
             }
         });
         if self.page == Page::Test {
-            self.test.paint(ui.ctx());
+            self.test.paint(ui.ctx(), input.texts);
         }
         actions
     }
@@ -155,7 +156,7 @@ impl StaffPanel {
     fn pages(&mut self, ui: &mut Ui, input: &PanelInput, actions: &mut Vec<StaffAction>) {
         ui.horizontal_wrapped(|ui| {
             for page in Page::ALL {
-                if ui.selectable_label(self.page == page, page.name()).clicked() {
+                if ui.selectable_label(self.page == page, input.texts.get(page.title())).clicked() {
                     self.turn_to(page);
                 }
             }
@@ -163,13 +164,10 @@ impl StaffPanel {
         ui.separator();
         let may = self.gate.is_open() || !self.gate.has_pin() && input.on_desk;
         if !may {
-            ui.colored_label(
-                BAD,
-                "No PIN is set: this panel shows and changes nothing. `soffio pin` prints the line for [staff].",
-            );
+            ui.colored_label(BAD, input.texts.get(TextId::StaffNoPin));
         }
         let mut said = None;
-        let scroll = egui::ScrollArea::vertical().id_salt(self.page.name()).auto_shrink(false);
+        let scroll = egui::ScrollArea::vertical().id_salt(self.page as usize).auto_shrink(false);
         let bottom = if self.said.is_some() { 80.0 } else { 0.0 };
         let room = (ui.available_height() - bottom).max(100.0);
         scroll.max_height(room).show(ui, |ui| match self.page {
@@ -181,7 +179,7 @@ impl StaffPanel {
             Page::Parameters => self.parameters.show(ui, input, may, &mut self.changes, &mut said),
             Page::Microphone => self.microphone.show(ui, input, may, &mut self.changes, &mut said),
             Page::Test => self.test.show(ui, input, may, actions),
-            Page::Log => self.log.show(ui, input.log),
+            Page::Log => self.log.show(ui, input.log, input.texts),
         });
         if said.is_some() {
             self.said = said;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::fleet::persisted::PersistedState;
 use crate::live::LiveState;
+use crate::pages::ui_strings::UiStrings;
 use crate::staff::log::Log;
 use crate::venue::state::VenueState;
 use soffio_config::Config;
@@ -50,6 +51,8 @@ pub struct PanelInput<'a> {
     pub log: &'a Log,
     /// Inputs so far.
     pub activity: u64,
+    /// Texts in the staff's language.
+    pub texts: &'a UiStrings,
     /// Is this a window on a desk, not the gallery?
     pub on_desk: bool,
     /// Points per millimetre of the screen.

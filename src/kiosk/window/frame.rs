@@ -131,7 +131,7 @@ impl App<'_> {
             points = ui.ctx().content_rect();
             let pages = Pages { frame, moment, view, time: vitals.time, points_per_mm: points_per_mm(ui.ctx()) };
             self.overlays.paint(ui, &pages, (&mut self.exhibits, &self.visit), (config, &self.venue));
-            let onset_latency = PanelInput {
+            let input = PanelInput {
                 frame,
                 view,
                 vitals,
@@ -143,11 +143,12 @@ impl App<'_> {
                 venue: &self.venue,
                 persisted: self.fleet.persisted(),
                 log: &self.desk.log,
+                texts: self.overlays.languages.staff(config, &self.overlays.translations),
                 activity: visitor.activity(),
                 on_desk: desk,
                 points_per_mm: pages.points_per_mm,
             };
-            actions.extend(self.desk.panel.show(ui, &onset_latency));
+            actions.extend(self.desk.panel.show(ui, &input));
         });
         Some((drawn, actions, points))
     }

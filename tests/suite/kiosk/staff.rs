@@ -9,6 +9,7 @@ use soffio_kiosk::egui::{self, Event, FontId, Key, Modifiers, PointerButton, Pos
 use soffio_kiosk::fleet::persisted::PersistedState;
 use soffio_kiosk::live::LiveState;
 use soffio_kiosk::pages::fonts;
+use soffio_kiosk::pages::languages::{languages_without_glyphs, staff_texts};
 use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
 use soffio_kiosk::staff::log::{CAPACITY, LONGEST, Log, LogLine};
 use soffio_kiosk::staff::{Page, PanelInput, StaffAction, StaffPanel, WindowStats};
@@ -17,6 +18,8 @@ use soffio_kiosk::step::stage::Stage;
 use soffio_kiosk::venue::state::VenueState;
 use soffio_kiosk::visitor::input::{Phase, Signal};
 use soffio_simulation::{InspectionScope, Settings};
+
+use super::pages::texts;
 
 const GLASS: [f32; 2] = [1280.0, 720.0];
 /// Points a millimetre of a 32-inch glass with that picture.
@@ -171,6 +174,7 @@ impl Before {
             persisted: &self.persisted,
             log: &self.log,
             activity: self.activity,
+            texts: staff_texts(texts(), &self.site, &[]),
             on_desk: self.on_desk,
             points_per_mm: POINTS_PER_MM,
         };
@@ -237,7 +241,7 @@ fn every_page_is_drawn_for_every_kind_of_work_and_says_what_it_is_for() {
         (Page::Wind, "fastest, m/s"),
         (Page::Sound, "chime-brass"),
         (Page::Parameters, "Drag a number"),
-        (Page::Microphone, "floor of the room"),
+        (Page::Microphone, "noise floor"),
         (Page::Test, "Loudspeakers"),
         (Page::Log, "no lines"),
     ];
@@ -254,6 +258,36 @@ fn every_page_is_drawn_for_every_kind_of_work_and_says_what_it_is_for() {
             }
         }
     }
+}
+
+#[test]
+fn the_panel_speaks_the_language_of_the_staff_and_writes_all_of_it() {
+    let cannot = languages_without_glyphs(texts());
+    for (code, tab) in
+        [("de", "Exponate"), ("fr", "Œuvres"), ("it", "Opere"), ("es", "Obras"), ("ko", "작품"), ("ja", "作品")]
+    {
+        let mut staff = Before::new("steel-fish");
+        staff.site.languages.first = "en".into();
+        staff.site.staff.language = code.into();
+        let usual = staff_texts(texts(), &staff.site, &cannot).code();
+        assert_eq!(usual, if cannot.iter().any(|cannot| cannot == code) { "en" } else { code });
+        if usual == "en" {
+            continue;
+        }
+        for page in Page::ALL {
+            staff.staff.turn_to(page);
+            (0..3).for_each(|_| drop(staff.look(Vec::new())));
+            assert!(staff.says(tab), "{code}, {page:?}: {:?}", staff.said());
+            for (text, _, font) in &staff.words {
+                let can = staff.context.fonts_mut(|fonts| fonts.has_glyphs(font, text));
+                assert!(can, "{code}, {page:?}: {font:?} has not all of \"{text}\"");
+            }
+        }
+        staff.site.staff.language.clear();
+        staff.look(Vec::new());
+        assert!(staff.says("Exhibits"), "without a language of its own it has that of the visitors");
+    }
+    assert_eq!(staff_texts(texts(), &Config::default(), &cannot).code(), "en", "where nothing is configured");
 }
 
 #[test]
@@ -434,8 +468,8 @@ fn a_number_that_is_dragged_is_saved_when_it_is_let_go_and_taken_back() {
     assert_ne!(saved, text);
     staff.exhibit_problem = Some("exhibit.toml:3:9: no such speed".into());
     staff.look(Vec::new());
-    assert!(staff.says("no such speed") && staff.says("the last good one is on show"), "{:?}", staff.said());
-    staff.press("Take back (1)");
+    assert!(staff.says("no such speed") && staff.says("the last good version is on show"), "{:?}", staff.said());
+    staff.press("Undo (1)");
     assert_eq!(std::fs::read_to_string(&file).expect("readable"), text);
 }
 
@@ -461,7 +495,7 @@ fn sounds_are_tried_and_a_finger_is_shown_where_it_is() {
     staff.look(Vec::new());
     assert!(!staff.says("1: 0.150, 0.500") && staff.says("2: 0.350, 0.500"), "{:?}", staff.said());
     // Pictures of the display lie over everything, and each press turns to the next: grey, edges, five colours.
-    staff.press("Show them");
+    staff.press("Show test pictures");
     for picture in 0..7 {
         staff.look(Vec::new());
         assert!(!staff.says("Loudspeakers"), "picture {picture}: {:?}", staff.said());

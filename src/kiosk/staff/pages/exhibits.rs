@@ -4,6 +4,8 @@ use std::path::Path;
 
 use egui::{RichText, Ui};
 
+use super::states::saved_in;
+use crate::pages::ui_strings::{TextId, UiStrings};
 use crate::staff::action::StaffAction;
 use crate::staff::edit::{Changes, with_list};
 use crate::staff::panel_input::PanelInput;
@@ -39,13 +41,13 @@ impl Exhibits {
         changes: &mut Changes,
         said: &mut Option<String>,
     ) {
-        let site = &input.site.exhibits;
+        let (site, texts) = (&input.site.exhibits, input.texts);
         if self.configured != site.show || self.all.is_empty() {
             (self.configured, self.list) = (site.show.clone(), site.show.clone());
             let places = ExhibitSource::All { folder: site.folder.clone(), show: vec![OTHERS.to_owned()] };
             self.all = folders(&places).iter().map(|folder| id(folder)).collect();
         }
-        ui.label("Visitors find the works in this order.");
+        ui.label(texts.get(TextId::StaffExhibitsOrder));
         let change = ui.add_enabled_ui(may, |ui| self.rows(ui, input, actions)).inner;
         if let Some(change) = change {
             self.apply(change);
@@ -54,21 +56,22 @@ impl Exhibits {
         let changed = self.list != self.configured;
         ui.horizontal(|ui| {
             let may_save = may && changed && input.file.is_some();
-            if ui.add_enabled(may_save, egui::Button::new("Save the order")).clicked()
+            if ui.add_enabled(may_save, egui::Button::new(texts.get(TextId::StaffSaveOrder))).clicked()
                 && let Some(file) = input.file
             {
-                *said = Some(save(file, &self.list, changes));
+                *said = Some(save(file, &self.list, changes, texts));
             }
-            if ui.add_enabled(changed, egui::Button::new("Discard")).clicked() {
+            if ui.add_enabled(changed, egui::Button::new(texts.get(TextId::StaffDiscard))).clicked() {
                 self.list.clone_from(&self.configured);
             }
         });
         if input.file.is_none() {
-            ui.weak("The configuration is built in: without a file nothing can be saved.");
+            ui.weak(texts.get(TextId::StaffNoFile));
         }
     }
 
     fn rows(&self, ui: &mut Ui, input: &PanelInput, actions: &mut Vec<StaffAction>) -> Option<Change> {
+        let texts = input.texts;
         let mut change = None;
         for (row, id) in self.list.iter().enumerate() {
             ui.horizontal(|ui| {
@@ -86,7 +89,7 @@ impl Exhibits {
                 match id.as_str() {
                     OTHERS => {
                         let others = self.all.iter().filter(|id| !self.list.contains(id)).count();
-                        ui.label(format!("all others ({others})"));
+                        ui.label(&*texts.format(TextId::StaffOthersCount, &[("count", others.into())]));
                     }
                     id if stands => {
                         if ui.selectable_label(input.frame.exhibit.id == id, id).clicked() {
@@ -94,17 +97,17 @@ impl Exhibits {
                         }
                     }
                     id => {
-                        ui.weak(format!("{id} (not there, or it does not load: see the log)"));
+                        ui.weak(&*texts.format(TextId::StaffExhibitMissing, &[("id", id.into())]));
                     }
                 }
             });
         }
         ui.separator();
-        ui.label("Not in the list:");
+        ui.label(texts.get(TextId::StaffNotListed));
         ui.horizontal_wrapped(|ui| {
             let others = self.all.iter().map(String::as_str).chain([OTHERS]);
             for id in others.filter(|id| !self.list.iter().any(|listed| listed == id)) {
-                let name = if id == OTHERS { "all others" } else { id };
+                let name = if id == OTHERS { texts.get(TextId::StaffOthers) } else { id };
                 if ui.button(format!("+ {name}")).clicked() {
                     change = Some(Change::Add(id.to_owned()));
                 }
@@ -122,9 +125,9 @@ impl Exhibits {
     }
 }
 
-fn save(file: &Path, list: &[String], changes: &mut Changes) -> String {
+fn save(file: &Path, list: &[String], changes: &mut Changes, texts: &UiStrings) -> String {
     match changes.make(file, |text| with_list(text, "exhibits", "show", list)) {
-        Ok(()) => format!("Saved in {}.", file.display()),
+        Ok(()) => saved_in(texts, file),
         Err(error) => error,
     }
 }

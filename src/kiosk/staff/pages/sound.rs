@@ -3,6 +3,7 @@
 use egui::{Slider, Ui};
 
 use super::style::BAD;
+use crate::pages::ui_strings::TextId;
 use crate::staff::action::StaffAction;
 use crate::staff::panel_input::PanelInput;
 use crate::step::instruments::{Audition, AuditionTarget, timbres};
@@ -29,12 +30,12 @@ impl Sound {
         if self.timbres.is_empty() {
             self.timbres = timbres().collect();
         }
-        let frame = input.frame;
+        let (frame, texts) = (input.frame, input.texts);
         if frame.load.loudness.muted || frame.lacks_output() {
-            ui.colored_label(BAD, "nothing will be heard: muted, or no loudspeaker");
+            ui.colored_label(BAD, texts.get(TextId::StaffNothingAudible));
         }
-        ui.add(Slider::new(&mut self.speed, 0.02..=4.0).logarithmic(true).text("speed of the hit, m/s"));
-        ui.add(Slider::new(&mut self.pan, -1.0..=1.0).text("left \u{2026} right"));
+        ui.add(Slider::new(&mut self.speed, 0.02..=4.0).logarithmic(true).text(texts.get(TextId::StaffStrikeSpeed)));
+        ui.add(Slider::new(&mut self.pan, -1.0..=1.0).text(texts.get(TextId::StaffPan)));
         let (speed, pan) = (self.speed, self.pan);
         let mut play = |ui: &mut Ui, name: &str, target: AuditionTarget| {
             if ui.button(name).clicked() {
@@ -42,7 +43,7 @@ impl Sound {
             }
         };
         ui.separator();
-        ui.label(format!("Of {}", frame.exhibit.id));
+        ui.label(&frame.exhibit.id);
         ui.add_enabled_ui(may, |ui| {
             ui.horizontal_wrapped(|ui| {
                 for sound in &frame.exhibit.sounds {
@@ -54,7 +55,7 @@ impl Sound {
                 }
             });
             ui.separator();
-            ui.label("All timbres, on the body that each is tried on");
+            ui.label(texts.get(TextId::StaffAllTimbres));
             ui.horizontal_wrapped(|ui| {
                 for name in &self.timbres {
                     play(ui, name, AuditionTarget::Timbre(name));

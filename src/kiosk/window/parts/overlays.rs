@@ -1,10 +1,10 @@
 //! Overlays of the picture: the label, the page behind "More", the buttons of both, the language, reading aloud.
 
-use crate::pages::languages::{default_language, languages_without_glyphs, offered};
+use crate::pages::languages::{default_language, languages_without_glyphs, offered, staff_texts};
 use crate::pages::menu::Menu;
 use crate::pages::overlay::Overlay;
 use crate::pages::read_aloud::ReadAloud;
-use crate::pages::ui_strings::Translations;
+use crate::pages::ui_strings::{Translations, UiStrings};
 use crate::visitor::input::Request;
 use soffio_config::Config;
 use soffio_exhibit::Exhibit;
@@ -76,6 +76,11 @@ impl Languages {
         if !self.offered.contains(&self.shown) {
             self.shown = default_language(&self.offered, &exhibit.labels, config);
         }
+    }
+
+    /// Texts of the staff panel.
+    pub fn staff<'a>(&self, config: &Config, translations: &'a Translations) -> &'a UiStrings {
+        staff_texts(translations, config, &self.without_glyphs)
     }
 
     /// Shows the language at this index.
