@@ -162,7 +162,7 @@ fn texts_beside(_: &Path) -> Vec<PathBuf> {
 #[cfg(not(feature = "kiosk"))]
 fn texts_report(path: &Path) -> Report {
     let message = format!("{}: this program was built without the kiosk and has no texts", path.display());
-    Report::of(Diagnostic::new(codes::TEXTS, message).help("use a program with the feature `kiosk`"))
+    Report::single(Diagnostic::new(codes::TEXTS, message).help("use a program with the feature `kiosk`"))
 }
 
 /// Bytes from a place to the end of its line; line and column (in characters) count from 1.
@@ -175,7 +175,7 @@ fn rest_of_line(text: &str, line: usize, column: usize) -> Range<usize> {
 
 /// Problems of a physics scene: old names as warnings, else the first mistake.
 fn scene_report(file: &Path) -> Result<Report, Report> {
-    PhysicsScene::read(file).map_err(|error| Report::of(Diagnostic::new(codes::SCENE, error.to_string())))?;
+    PhysicsScene::read(file).map_err(|error| Report::single(Diagnostic::new(codes::SCENE, error.to_string())))?;
     let name = file.display().to_string();
     let text = std::fs::read_to_string(file).unwrap_or_default();
     let updated = renamed::update(FileKind::Scene, &text);
