@@ -86,7 +86,7 @@ fn joints(out: &mut String, mobile: &Mobile, point: &str) {
 
 /// Idle damping of a mobile.
 const CALM: &str = "# Idle damping brings the mobile to rest, so that the next visitor sees the effect of their own breath.\n\
-                    [wind.calm]\nafter = \"3 s\"\ntime = \"2.5 s\"\n\n";
+                    [wind.idle_damping]\nafter = \"3 s\"\ntime = \"2.5 s\"\n\n";
 
 /// Collider, wind surface and sound of a plate.
 fn plates(out: &mut String, names: &[&str]) {

@@ -41,7 +41,7 @@ pub fn attract(breaths: &[AttractBreath]) -> String {
     let mut out = format!(
         "# ---- when nobody is there ------------------------------------------------------------------------------------\n\
          # Steps in increasing time, seconds since the script began. A step shows a text, blows, orbits the\n\
-         # camera (look = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or resets the exhibit to its\n\
+         # camera (camera = [\"20 deg\", \"5 deg\"] to the right and up, [0, 0] back), or resets the exhibit to its\n\
          # start (reset = true): that is a jump, for exhibits whose parts break or roll away.\n\
          # strength: 0.22 is a gentle breath, 1 the hardest. aim: (0,0) is the picture's top left, (1,1) its bottom right.\n\n\
          [attract]\nduration = {end}\n\n[[attract.step]]\nat = 0\nshow = \"invite\"\n"

@@ -10,7 +10,7 @@ pub enum SolverArg {
     Dynamics,
     /// Procedural motion, joint by joint.
     Procedural,
-    /// Places first, all joints at once.
+    /// Position-based motion, all joints at once.
     PositionBased,
     /// The exhibit's own choice.
     #[default]

@@ -5,27 +5,34 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::failure::{Failure, Outcome};
-use soffio_config::{Config, ConfigError};
+use super::fix;
+use soffio_config::{Config, Problem};
+use soffio_exhibit::renamed::{self, FileKind};
 use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
 #[cfg(feature = "kiosk")]
 use soffio_kiosk::pages::ui_strings;
 use soffio_offline::budget::{self, Findings};
+use soffio_offline::scene::PhysicsScene;
 
 /// Validates exhibits, configs and models: all problems at once, located, explained.
 ///
 /// An exhibit without mistakes is also run, for up to 10 s of processor time: a hard breath, a fast hand, and 20 assemblies.
 /// A warning says where a kiosk would not keep up with it.
 ///
-/// Example: soffio check exhibits/steel-fish
+/// Examples: soffio check exhibits/steel-fish
+///           soffio check --fix kiosk-config/kiosk.toml
 #[derive(clap::Args, Debug, Default)]
 pub struct Args {
     /// Exhibit ids or folders, a folder of exhibits, their exhibit.toml, .glb or .gltf files; a site's configuration
-    /// (any other .toml), with the texts beside it; files or a folder of texts (.ftl).
+    /// (any other .toml), with the texts beside it; files or a folder of texts (.ftl); a physics scene (.json).
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<String>,
     /// Does not run the exhibits.
     #[arg(long)]
     quick: bool,
+    /// Rewrites files with old names of keys, and says what changed; comments and layout stay.
+    #[arg(long)]
+    fix: bool,
     /// Prints one JSON array of problems to stdout.
     #[arg(long)]
     json: bool,
@@ -33,8 +40,12 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
+    let paths: Vec<String> = args.paths.iter().flat_map(|path| expand(path)).collect();
+    if args.fix {
+        fix::run(&paths)?;
+    }
     let mut all = Report::default();
-    for path in args.paths.iter().flat_map(|path| expand(path)) {
+    for path in paths {
         let (report, findings) = check(&path, args.quick);
         if !args.json {
             let verdict = match (report.has_errors(), report.diagnostics.len()) {
@@ -82,24 +93,28 @@ fn check(path: &str, quick: bool) -> (Report, Option<Findings>) {
             exhibit_report(file.parent().unwrap_or(file), quick)
         }
         "toml" => {
-            let mut report = Config::load(Some(file)).map_or_else(|error| config_report(&error), |_| Report::default());
+            let mut report = match Config::load(Some(file)) {
+                Ok(loaded) => config_report(file, &loaded.warnings, codes::OLD_NAME),
+                Err(error) => config_report(&error.file, &error.problems, codes::CONFIG),
+            };
             texts_beside(file).iter().for_each(|texts| report.absorb(texts_report(texts)));
             Ok(without(report))
         }
         "ftl" => Ok(without(texts_report(file))),
+        "json" => scene_report(file).map(without),
         _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder, quick)),
     };
     outcome.unwrap_or_else(without)
 }
 
 /// A configuration's problems in the form of an exhibit's.
-fn config_report(error: &ConfigError) -> Report {
-    let file = error.file.display().to_string();
-    // A file that cannot be read again has no lines to show; its problems stand without them.
-    let text = std::fs::read_to_string(&error.file).unwrap_or_default();
-    let diagnostics = error.problems.iter().map(|problem| {
+fn config_report(path: &Path, problems: &[Problem], code: codes::Code) -> Report {
+    let file = path.display().to_string();
+    // A file that cannot be read again has no lines to show; its problems are listed without them.
+    let text = std::fs::read_to_string(path).unwrap_or_default();
+    let diagnostics = problems.iter().map(|problem| {
         let message = if problem.line > 0 { problem.message.clone() } else { format!("{file} {}", problem.message) };
-        let mut diagnostic = Diagnostic::new(codes::CONFIG, message);
+        let mut diagnostic = Diagnostic::new(code, message);
         diagnostic.help = Some(problem.help.clone()).filter(|help| !help.is_empty());
         diagnostic.location = (problem.line > 0).then(|| Location {
             file: file.clone(),
@@ -146,7 +161,7 @@ fn texts_beside(_: &Path) -> Vec<PathBuf> {
 #[cfg(not(feature = "kiosk"))]
 fn texts_report(path: &Path) -> Report {
     let message = format!("{}: this program was built without the kiosk and has no texts", path.display());
-    Report::of(Diagnostic::new(codes::TEXTS, message).help("use a program with the feature `kiosk`"))
+    Report::single(Diagnostic::new(codes::TEXTS, message).help("use a program with the feature `kiosk`"))
 }
 
 /// Bytes from a place to the end of its line; line and column (in characters) count from 1.
@@ -155,6 +170,19 @@ fn rest_of_line(text: &str, line: usize, column: usize) -> Range<usize> {
     let line = text[start..].lines().next().unwrap_or_default();
     let before: usize = line.chars().take(column - 1).map(char::len_utf8).sum();
     start + before..start + line.len()
+}
+
+/// Problems of a physics scene: old names as warnings, else the first mistake.
+fn scene_report(file: &Path) -> Result<Report, Report> {
+    PhysicsScene::read(file).map_err(|error| Report::single(Diagnostic::new(codes::SCENE, error.to_string())))?;
+    let name = file.display().to_string();
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    let updated = renamed::update(FileKind::Scene, &text);
+    let warnings = updated.replacements.iter().map(|change| {
+        let help = format!("`soffio check --fix {name}` rewrites the file");
+        Diagnostic::new(codes::OLD_NAME, format!("{name}: {change}")).help(help)
+    });
+    Ok(warnings.collect::<Vec<_>>().into())
 }
 
 fn exhibit_report(folder: &Path, quick: bool) -> Result<(Report, Option<Findings>), Report> {

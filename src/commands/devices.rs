@@ -2,13 +2,13 @@
 
 use super::failure::{Failure, Outcome};
 
-/// Lists what the machine has: microphones, loudspeakers, GPUs.
+/// Lists the devices of this machine: microphones, loudspeakers, GPUs.
 #[derive(clap::Args, Debug, Default)]
 #[command(after_help = "\
 Example: soffio devices
          soffio devices --json
 
-The ids, or any part of a name, are what `microphone` and `loudspeaker` in the configuration take.")]
+`audio.microphone` and `audio.output` in the configuration take these ids, or any part of a name.")]
 pub struct Args {
     /// One JSON object instead of text.
     #[arg(long)]
@@ -58,7 +58,7 @@ pub fn run(args: Args) -> Outcome {
 /// Runs the command.
 #[cfg(not(feature = "kiosk"))]
 pub fn run(_args: Args) -> Outcome {
-    Err(Failure { code: 2, message: "this build knows no devices; build it with the feature `kiosk`".into() })
+    Err(Failure { code: 2, message: "this build supports no devices; build it with the feature `kiosk`".into() })
 }
 
 /// A graphics adapter.

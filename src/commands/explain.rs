@@ -14,7 +14,7 @@ use soffio_multibody::collision::{Collider, Reason};
 pub struct Args {
     /// Exhibit id or folder.
     exhibit: String,
-    /// Only this body, and what hangs on it.
+    /// Only this body, with everything that names it.
     body: Option<String>,
 }
 
@@ -77,8 +77,7 @@ fn explain_body(exhibit: &Exhibit, body: usize) -> String {
     out
 }
 
-/// Which colliders never meet one of the chosen ones, and why. Parts of one body and what stands still go without
-/// saying.
+/// Colliders that never meet one of the chosen ones, and why. Parts of one body and static pairs are left out.
 fn pair_lines(out: &mut String, exhibit: &Exhibit, chosen: impl Fn(&Collider) -> bool) {
     let pairs = exhibit.collider_pairs();
     let colliders = |a: usize, b: usize| (&exhibit.colliders[a], &exhibit.colliders[b]);

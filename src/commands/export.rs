@@ -28,7 +28,7 @@ const FILM: u32 = 24;
     after_help = "Examples:\n  soffio export steel-fish --gltf fish.glb --breath blow.wav --seconds 8\n  \
                   soffio export wind-chimes --rib scenes --fps 24 --seconds 4\n  \
                   soffio export pendulum --mjcf pendulum.xml\n\n\
-                  What a format has no words for is left out and named."
+                  Parts that a format cannot express are left out and listed."
 )]
 pub struct Args {
     /// Id under `exhibits/`, or a folder.
@@ -46,7 +46,7 @@ pub struct Args {
     /// Length of the run; default is the recording's length and 5 s.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, conflicts_with = "mjcf")]
     seconds: Option<f64>,
-    /// Recorded breath, heard as the microphone.
+    /// Recorded breath in place of the microphone.
     #[arg(long, value_name = "WAV", conflicts_with = "mjcf")]
     breath: Option<PathBuf>,
     /// Frames per second: of glTF each step (240) where left out, of scenes 24; at most 120 of those.

@@ -12,7 +12,7 @@ pub type Outcome = Result<(), Failure>;
 pub struct Failure {
     /// 1 bad input or problems found, 2 usage, 3 a device or driver is missing, 130 interrupted.
     pub code: u8,
-    /// What, where, why, and what to do. Empty where everything is said already.
+    /// Message with place, reason and remedy. Empty where everything is printed already.
     pub message: String,
 }
 

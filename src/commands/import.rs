@@ -3,19 +3,19 @@
 use std::path::PathBuf;
 
 use super::failure::{Failure, Outcome};
-use super::new::{place, tell, write};
+use super::new::{place, report, write};
 use soffio_authoring::imported;
 use soffio_exhibit::{self as exhibit, SIDECAR};
 
-/// Makes an exhibit folder from a glTF model (.glb, .gltf with its files): a sidecar proposes bodies, masses, joints.
+/// Makes an exhibit folder from a glTF model (.glb, or .gltf with its files). Its sidecar proposes bodies, masses, joints.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
 Example: soffio import bird.glb
          soffio import scans/bird.gltf --id paper-bird
 
 Physics that the model carries (KHR_physics_rigid_bodies, KHR_implicit_shapes) is taken over: motions, shapes, materials,
-joints. What cannot be taken over is told, node by node; what then does not hold is told with its line, and the folder is
-there all the same, to be mended. The folder is made in `exhibits/` if there is one here, else here.")]
+joints. What cannot be taken over is reported, node by node. Mistakes are reported with their lines; the folder is made all
+the same, to be corrected. The folder is made in `exhibits/` if there is one here, else here.")]
 pub struct Args {
     /// The model.
     model: PathBuf,
@@ -30,13 +30,13 @@ pub fn run(args: Args) -> Outcome {
     let (folder, id) = place(&id)?;
     let made = imported::folder(&args.model, &id).map_err(Failure::input)?;
     write(&made, &folder)?.finish().map_err(Failure::input)?;
-    let exhibit = exhibit::load(&folder).map_err(|report| {
+    let exhibit = exhibit::load(&folder).map_err(|problems| {
         let shown = folder.display();
         Failure::input(format!(
-            "{report}the folder {shown} is there; mend its {SIDECAR} or the model, then: soffio check {shown}"
+            "{problems}the folder {shown} is there; correct its {SIDECAR} or the model, then: soffio check {shown}"
         ))
     })?;
-    tell(&made, &folder, &id, &exhibit);
+    report(&made, &folder, &id, &exhibit);
     Ok(())
 }
 
@@ -44,6 +44,6 @@ pub fn run(args: Args) -> Outcome {
 fn id_of(model: &std::path::Path) -> String {
     let stem = model.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
     let plain: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let words: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();
-    words.join("-")
+    let parts: Vec<&str> = plain.split('-').filter(|word| !word.is_empty()).collect();
+    parts.join("-")
 }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
 use super::setup;
-use soffio_config as config;
 use soffio_exhibit as exhibit;
 use soffio_math::{PI, from_decibels, sin};
 use soffio_offline::loudness::{Levelled, Measured, correction, level, measure, write};
@@ -24,7 +23,7 @@ Example: soffio loudness exhibits/steel-fish --write
 Exhibits are levelled to -23 LUFS, and no 3 s of them above -18 LUFS; --write puts `level` into their exhibit.toml.
 
 To calibrate a kiosk, set audio.volume_db = 0 and the amplifier as it stays, play the tone over its loudspeaker, and read a
-sound meter, dB(A), where a visitor's head is. The tone is 20 dB below full scale: 20 more than the meter shows is
+sound meter, dB(A), at the listening position. The tone is 20 dB below full scale: 20 more than the meter shows is
 volume.full_scale_db_spl.")]
 pub struct Args {
     /// Ids under `exhibits/`, folders, or WAV files; default is every shipped exhibit.
@@ -49,15 +48,15 @@ pub fn run(args: Args) -> Outcome {
     if paths.is_empty() {
         return Err(Failure::input("there is no exhibit here; run this where the folder `exhibits` is, or name one"));
     }
-    let (config, _) = config::Config::load(None).map_err(Failure::input)?;
-    let room = config.room.spec();
+    let config = setup::config(None)?;
+    let reverb = config.reverb.spec();
     for path in paths {
         if Path::new(&path).extension().is_some_and(|extension| extension.eq_ignore_ascii_case("wav")) {
             recording(&path, args.json)?;
             continue;
         }
         let exhibit = setup::open(&path)?;
-        let levelled = level(&exhibit, config.simulation_settings(1), room.as_ref()).map_err(Failure::input)?;
+        let levelled = level(&exhibit, config.simulation_settings(1), reverb.as_ref()).map_err(Failure::input)?;
         print(&levelled, args.json)?;
         if args.write {
             write(&exhibit.folder, levelled.fitting_db).map_err(Failure::input)?;
@@ -76,7 +75,7 @@ fn recording(path: &str, json: bool) -> Outcome {
     if json {
         println!("{}", serde_json::to_string(&measured).map_err(Failure::input)?);
     } else {
-        println!("{path}: {}; {:+.1} dB to the programme's loudness", words(&measured), correction(&measured));
+        println!("{path}: {}; {:+.1} dB to the programme's loudness", description(&measured), correction(&measured));
     }
     Ok(())
 }
@@ -86,12 +85,16 @@ fn print(levelled: &Levelled, json: bool) -> Outcome {
         println!("{}", serde_json::to_string(levelled).map_err(Failure::input)?);
     } else {
         let Levelled { exhibit, now, level_db, fitting_db, then } = levelled;
-        println!("{exhibit}: {} at level {level_db:.1} dB; {} at {fitting_db:.1} dB", words(now), words(then));
+        println!(
+            "{exhibit}: {} at level {level_db:.1} dB; {} at {fitting_db:.1} dB",
+            description(now),
+            description(then)
+        );
     }
     Ok(())
 }
 
-fn words(measured: &Measured) -> String {
+fn description(measured: &Measured) -> String {
     let Measured { lufs: Some(lufs), short_term_lufs, true_peak_dbtp } = measured else { return "silent".into() };
     let or_silence = |x: &Option<f64>| x.map_or_else(|| "-inf".to_owned(), |x| format!("{x:.1}"));
     format!("{lufs:.1} LUFS, 3 s {}, peak {} dBTP", or_silence(short_term_lufs), or_silence(true_peak_dbtp))

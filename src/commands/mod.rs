@@ -6,6 +6,8 @@ use clap::{Parser, Subcommand};
 
 mod arguments;
 mod failure;
+mod fix;
+mod old_options;
 mod setup;
 
 pub use failure::{Failure, Outcome};
@@ -71,7 +73,9 @@ enum Command {
 
 /// Runs the program on the process's arguments.
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let (arguments, warnings) = old_options::update(std::env::args_os());
+    warnings.iter().for_each(|warning| eprintln!("{warning}"));
+    let cli = Cli::parse_from(arguments);
     let outcome = match cli.command {
         #[cfg(feature = "kiosk")]
         None => kiosk::run(kiosk::Args::default()),

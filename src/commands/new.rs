@@ -1,4 +1,4 @@
-//! `soffio new`: begins an exhibit that hangs, runs and sounds.
+//! `soffio new`: creates an exhibit from a template.
 
 use std::io::{BufRead, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -22,19 +22,19 @@ const NOTES: &str = "C5,D5,E5,G5,A5,C6";
 /// Largest drawing, bytes.
 const MAX_DRAWING: u64 = 16 << 20;
 
-/// Begins an exhibit: a folder that hangs, runs and sounds, with a sidecar whose comments teach.
+/// Creates an exhibit from a template: a complete folder, with a sidecar whose comments explain it.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "\
 Example: soffio new red-mobile --from mobile --plates 120x80,100,90x60
          soffio new fish --from mobile --outlines fish.svg --thickness 0.8 --material steel
          soffio new my-chimes --from chimes --notes C5,E5,G5,C6
 
-Plates hang in pairs that ring; wires are bent so that all hangs level. The folder is made in `exhibits/` if there is one
-here, else here. Nothing is ever written over.")]
+Plates hang in pairs that ring; wires are bent so that everything hangs level. The folder is made in `exhibits/` if there
+is one here, else here. Nothing is overwritten.")]
 pub struct Args {
     /// Id of the exhibit, lower-case letters, digits and hyphens; or the path of the folder to make, which ends in it.
     id: String,
-    /// What it begins from.
+    /// Template.
     #[arg(long, value_enum)]
     from: Kind,
     /// Mobile: sizes of the plates, mm: 120x80 is width x height with round corners, 100 a disc.
@@ -46,7 +46,7 @@ pub struct Args {
     /// Mobile: thickness of the sheet, mm.
     #[arg(long, value_name = "MM", default_value_t = 0.8)]
     thickness: f64,
-    /// Mobile: what the plates are cut from.
+    /// Mobile: material of the plates.
     #[arg(long, value_enum, default_value_t)]
     material: Material,
     /// Chimes: the tubes' notes, from C4 to C7; by default C5,D5,E5,G5,A5,C6.
@@ -54,7 +54,7 @@ pub struct Args {
     notes: Vec<String>,
 }
 
-/// What an exhibit begins from.
+/// Template of an exhibit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Kind {
     /// A balanced mobile of your plates.
@@ -115,11 +115,11 @@ pub fn run(args: Args) -> Outcome {
         Kind::Pendulum => return copy(Template::Pendulum, &folder, &id),
         Kind::Empty => Ok(starter::empty(&id)),
     };
-    settle(&made.map_err(Failure::input)?, &folder, &id)
+    create(&made.map_err(Failure::input)?, &folder, &id)
 }
 
 fn copy(template: Template, folder: &Path, id: &str) -> Outcome {
-    settle(&template.copy(id).map_err(Failure::input)?, folder, id)
+    create(&template.copy(id).map_err(Failure::input)?, folder, id)
 }
 
 /// All results, or all problems.
@@ -141,8 +141,8 @@ pub(super) fn place(id: &str) -> Result<(PathBuf, String), Failure> {
     if let Some(problem) = id_problem(&name) {
         return Err(Failure::input(Report::single(problem)));
     }
-    let shelf = Path::new("exhibits");
-    let folder = if id == name && shelf.is_dir() { shelf.join(id) } else { given.to_path_buf() };
+    let exhibits = Path::new("exhibits");
+    let folder = if id == name && exhibits.is_dir() { exhibits.join(id) } else { given.to_path_buf() };
     let parent = folder.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !parent.is_dir() {
         return Err(Failure::input(format!("there is no folder {}; make it first", parent.display())));
@@ -155,16 +155,16 @@ pub(super) fn place(id: &str) -> Result<(PathBuf, String), Failure> {
     Ok((folder, name))
 }
 
-/// Writes what is made, loads it as the kiosk would, and only then gives it its name.
-fn settle(made: &ExhibitFolder, folder: &Path, id: &str) -> Outcome {
+/// Writes the folder, loads it as the kiosk would, and only then gives it its name.
+fn create(made: &ExhibitFolder, folder: &Path, id: &str) -> Outcome {
     let whole = write(made, folder)?;
     let exhibit = exhibit::load(whole.aside()).map_err(Failure::input)?;
     whole.finish().map_err(Failure::input)?;
-    tell(made, folder, id, &exhibit);
+    report(made, folder, id, &exhibit);
     Ok(())
 }
 
-/// All files of a folder on its way; Ctrl-C leaves nothing of it.
+/// Writes all files of a folder; Ctrl-C leaves nothing of it.
 pub(super) fn write(made: &ExhibitFolder, folder: &Path) -> Result<AtomicFolder, Failure> {
     let stop = Arc::new(AtomicBool::new(false));
     setup::stop_on_ctrl_c(&stop);
@@ -178,8 +178,8 @@ pub(super) fn write(made: &ExhibitFolder, folder: &Path) -> Result<AtomicFolder,
     Ok(whole)
 }
 
-/// Says what there is now, and what to do next.
-pub(super) fn tell(made: &ExhibitFolder, folder: &Path, id: &str, exhibit: &Exhibit) {
+/// Prints the result and the next steps.
+pub(super) fn report(made: &ExhibitFolder, folder: &Path, id: &str, exhibit: &Exhibit) {
     for remark in &made.remarks {
         eprintln!("{remark}");
     }
@@ -191,7 +191,7 @@ pub(super) fn tell(made: &ExhibitFolder, folder: &Path, id: &str, exhibit: &Exhi
     println!("{shown}");
     eprintln!("{} bodies, {} joints{counted}", exhibit.bodies.len(), exhibit.constraints.len());
     eprintln!(
-        "Next: write its words in {shown}/{}, then\n  soffio check {shown}\n  soffio play {shown} --no-wind --seconds 5\n  \
+        "Next: write its texts in {shown}/{}, then\n  soffio check {shown}\n  soffio play {shown} --no-wind --seconds 5\n  \
          soffio loudness {shown} --write\n  soffio render {shown} --size 1280x720 -o {shown}/thumbnail.png\n  \
          soffio kiosk --windowed --exhibit {id}",
         exhibit::SIDECAR

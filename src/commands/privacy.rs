@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::failure::{Failure, Outcome};
+use super::failure::Outcome;
 use soffio_config::Config;
 
-/// Says what the kiosk keeps of its visitors, where and for how long, and what it does not keep.
+/// Lists the data that the kiosk stores about its visitors, where and for how long, and the data that it never stores.
 #[derive(clap::Args, Debug, Default)]
 #[command(after_help = "\
 Example:
@@ -19,38 +19,38 @@ pub struct Args {
     json: bool,
 }
 
-/// Something that is kept.
+/// Stored data.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Kept {
-    /// What it is.
+pub struct StoredItem {
+    /// Description.
     pub what: String,
-    /// Where.
+    /// Place.
     pub place: String,
-    /// Until when.
+    /// Time until which it is stored.
     pub until: String,
 }
 
 /// The whole report.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Report {
-    /// What is kept. None of it says who somebody is.
-    pub kept: Vec<Kept>,
-    /// What is not.
+    /// Stored data. None of it identifies a person.
+    pub kept: Vec<StoredItem>,
+    /// Data that is never stored.
     pub not_kept: Vec<&'static str>,
-    /// Ways out of the machine.
+    /// Data sent over the network.
     pub sent: Vec<String>,
 }
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    let (config, _) = Config::load(args.config.as_deref()).map_err(Failure::input)?;
+    let config = super::setup::config(args.config.as_deref())?;
     let report = report(&config);
     if args.json {
         println!("{}", serde_json::json!(report));
         return Ok(());
     }
     println!("Kept:");
-    for Kept { what, place, until } in &report.kept {
+    for StoredItem { what, place, until } in &report.kept {
         println!("  {what}\n      where: {place}; until: {until}");
     }
     println!("\nNot kept, at no time, in no file:");
@@ -63,65 +63,68 @@ pub fn run(args: Args) -> Outcome {
     Ok(())
 }
 
-/// What a kiosk with this configuration keeps.
+/// Data that a kiosk with this configuration stores.
 pub fn report(config: &Config) -> Report {
-    let kept =
-        |what: &str, place: &str, until: &str| Kept { what: what.into(), place: place.into(), until: until.into() };
+    let kept = |what: &str, place: &str, until: &str| StoredItem {
+        what: what.into(),
+        place: place.into(),
+        until: until.into(),
+    };
     let mut all = vec![];
     if config.visit.breath {
         all.push(kept(
-            "microphone samples, from which level, bands and onset of a breath are found",
+            "microphone samples, from which level, bands and onset of a breath are computed",
             "memory",
-            "the next few steps, a fraction of a second; of what the room sounds like, mean spectra of some seconds",
+            "the next few steps, a fraction of a second; for the noise of the room, mean spectra of some seconds",
         ));
     }
     if config.visit.breath {
         all.push(kept(
-            "a few seconds of the kiosk's own chirp, once a day or when staff ask for it",
+            "a few seconds of the audio self-test, once a day or when staff start it",
             "memory",
-            "it is heard",
+            "the test ends",
         ));
     }
-    all.push(kept("seconds blown at a work in this visit", "memory", "the visit ends"));
+    all.push(kept("seconds of breath at an exhibit in this visit", "memory", "the visit ends"));
     all.push(kept(
-        "what the simulation was told (pointers, hands, speed of the breath) or where the work was, without a name or a sound",
-        "nowhere, but where an engineer starts the kiosk with --record FILE or --trace FILE: there",
+        "inputs of the simulation (pointers, grabs, speed of the breath) or poses of the exhibit, without a name or a sound",
+        "nowhere, unless an engineer starts the kiosk with --record FILE or --trace FILE",
         "the file is deleted",
     ));
     all.push(kept(
-        "language, type, contrast, volume, motion and press-once as a visitor chose them",
+        "language, text size, contrast, volume, motion and press-once as chosen by a visitor",
         "memory",
-        "nobody has been there for attract.idle_s",
+        "there was no input for attract.idle_s",
     ));
-    all.push(kept("mean level of what the loudspeaker played", "memory", "a minute; midnight"));
+    all.push(kept("mean level of the played sound", "memory", "a minute; midnight"));
     all.push(kept(
-        "log: devices, exhibits, faults, and when a breath began and ended, by whatever means it was blown",
+        "log: devices, exhibits, faults, and begin and end of each breath with its kind of input",
         "standard error: the journal, under systemd",
         "as the journal is set; the last 400 lines in memory",
     ));
     const COUNTS: &str = "counts over all visitors (visits and how long they were, breaths by their source, languages)";
     #[cfg(feature = "kiosk")]
-    if let Some(folder) = soffio_kiosk::fleet::kept::folder(config) {
+    if let Some(folder) = soffio_kiosk::fleet::persisted::folder(config) {
         let what = format!(
-            "{COUNTS}; the day's sum of breath; how loud the kiosk's own chirp arrived in seven octaves; wrong PINs, mute, night, the work on show"
+            "{COUNTS}; the breath time of the day; levels of the audio self-test in seven octaves; wrong PINs, mute, night, the exhibit on show"
         );
         all.push(kept(&what, &folder.display().to_string(), "the file is deleted"));
     }
     let metrics = &config.staff.metrics;
     if !metrics.as_os_str().is_empty() {
-        let what = format!("numbers of the machine, and {COUNTS}");
-        all.push(kept(&what, &metrics.display().to_string(), "15 s, then the next ones take their place"));
+        let what = format!("measurements of the machine, and {COUNTS}");
+        all.push(kept(&what, &metrics.display().to_string(), "15 s, then they are replaced"));
     }
     let not_kept = vec![
         "sound: no microphone sample is ever written to a file or sent anywhere",
-        "pictures of anybody: there is no camera",
-        "names, faces, voices, or anything by which a visitor could be known again",
+        "pictures of people: there is no camera",
+        "names, faces, voices, or anything that could identify a visitor",
         "where a visitor touched or pointed, unless an engineer has started a record (above)",
-        "which visitor blew when, or how one went from work to work",
+        "which visitor blew when, or in which order a visitor saw the exhibits",
     ];
     let broker = &config.mqtt.broker;
-    let told = format!(
-        "to the broker {broker}: how the kiosk is, the language it shows, and the counts; no visitor, no sound"
+    let sent = format!(
+        "to the broker {broker}: state of the kiosk, the language on show, and the counts; nothing about a person, no sound"
     );
-    Report { kept: all, not_kept, sent: (!broker.is_empty()).then_some(told).into_iter().collect() }
+    Report { kept: all, not_kept, sent: (!broker.is_empty()).then_some(sent).into_iter().collect() }
 }

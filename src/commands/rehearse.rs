@@ -6,7 +6,6 @@ use std::sync::atomic::AtomicBool;
 
 use super::failure::{Failure, Outcome};
 use super::setup::{progress_bar, stop_on_ctrl_c};
-use soffio_config::Config;
 use soffio_detector::BlowSettings;
 use soffio_kiosk::venue::site::Site;
 use soffio_offline::wav;
@@ -64,7 +63,7 @@ fn parse_hours(text: &str) -> Result<f64, String> {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    let (config, _) = Config::load(None).map_err(Failure::input)?;
+    let config = super::setup::config(None)?;
     let crowd = args.crowd.as_deref().map_or(Ok(Crowd::Made), recordings)?;
     let rehearsal = Rehearsal {
         exhibits: featured_exhibits(&config).map_err(Failure::input)?,

@@ -6,21 +6,21 @@ use std::sync::atomic::AtomicBool;
 
 use super::failure::{Failure, Outcome};
 use super::play::outputs::Outputs;
-use super::setup::{open, progress_bar, room, stop_on_ctrl_c};
+use super::setup::{open, progress_bar, reverb, stop_on_ctrl_c};
 use soffio_offline::play::{Play, Summary};
 use soffio_simulation::STEPS_PER_SECOND;
 use soffio_simulation::record::{self, RecordSection};
 
-/// Runs a recorded live run again, to the bit, and says whether it came to the same.
+/// Repeats a recorded live run to the bit, and says whether it ends in the same state.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Example:\n  soffio kiosk --record day.jsonl\n  soffio replay day.jsonl --part 3 --audio part.wav \
                         --video part.mp4"
 )]
 pub struct Args {
-    /// What `soffio kiosk --record` wrote.
+    /// Record written by `soffio kiosk --record`.
     record: PathBuf,
-    /// One part of it alone, from 1: each exhibit that was shown is a part [default: all of them].
+    /// Only this part, from 1: each exhibit that was shown is a part [default: all].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     part: Option<u64>,
     #[command(flatten)]
@@ -39,7 +39,7 @@ pub fn run(args: Args) -> Outcome {
         return Err(Failure { code: 2, message: format!("{name} has {count} parts; --part is from 1 to {count}") });
     }
     if args.outputs.wants_files() && wanted.is_none() && count != 1 {
-        let message = format!("{name} has {count} parts and files are of one run; say which by --part, from 1");
+        let message = format!("{name} has {count} parts and files hold one run; choose it with --part, from 1");
         return Err(Failure { code: 2, message });
     }
     let stop = Arc::new(AtomicBool::new(false));
@@ -57,7 +57,7 @@ pub fn run(args: Args) -> Outcome {
                 differ.push(format!("part {number} ends in {}, the live run in {}", summary.state_hash, end.state));
             }
             Some(_) => {}
-            None => eprintln!("soffio: part {number} was cut off; it was run as far as it goes"),
+            None => eprintln!("soffio: part {number} is incomplete; it was run to its end"),
         }
     }
     if differ.is_empty() {
@@ -73,7 +73,7 @@ fn again(outputs: &Outputs, part: RecordSection, stop: &AtomicBool) -> Result<Su
     let play = Play {
         settings: part.begin.settings,
         seconds: part.steps() as f64 / STEPS_PER_SECOND as f64,
-        reverb: room()?,
+        reverb: reverb()?,
         recorded: Some(part),
         ..Play::default()
     };

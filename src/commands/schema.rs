@@ -31,7 +31,7 @@ pub enum Kind {
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let schema = match args.kind {
-        Kind::Exhibit => exhibit::schema::schema(),
+        Kind::Exhibit => exhibit::schema::schema_with_old_names(),
         Kind::Kiosk => config::schema(),
         Kind::Timbre => schemars::schema_for!(Preset).to_value(),
     };

@@ -1,32 +1,43 @@
-//! What commands need around their work: the exhibit, the site's settings, a clean stop, a progress bar.
+//! What several commands need: the exhibit, the site's settings, a clean stop, a progress bar.
 
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::failure::Failure;
-use soffio_config::Config;
+use soffio_config::{Config, LoadedConfig};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_simulation::Settings;
 use soffio_sound::ReverbSpec;
 
-/// Loads an exhibit by its id or folder; all its problems are told at once.
+/// Loads an exhibit by its id or folder; all its problems are in the error.
 pub fn open(id_or_folder: &str) -> Result<Arc<Exhibit>, Failure> {
     let folder = exhibit::resolve(id_or_folder).map_err(Failure::input)?;
     exhibit::load(&folder).map(Arc::new).map_err(Failure::input)
 }
 
-/// Constants of a run as the site's configuration has them.
-pub fn settings() -> Result<Settings, Failure> {
-    let (config, _) = Config::load(None).map_err(Failure::input)?;
-    Ok(config.simulation_settings(1))
+/// The site's configuration: that of a file, or the one that is found from here. Its warnings go to stderr.
+pub fn config(file: Option<&Path>) -> Result<Config, Failure> {
+    let loaded = Config::load(file).map_err(Failure::input)?;
+    print_warnings(&loaded);
+    Ok(loaded.config)
 }
 
-/// The room of the site's configuration.
-pub fn room() -> Result<Option<ReverbSpec>, Failure> {
-    let (config, _) = Config::load(None).map_err(Failure::input)?;
-    Ok(config.room.spec())
+/// Says on stderr which old names a configuration has.
+fn print_warnings(loaded: &LoadedConfig) {
+    loaded.warning_texts().for_each(|warning| eprintln!("{warning}"));
+}
+
+/// Constants of a run as the site's configuration has them.
+pub fn settings() -> Result<Settings, Failure> {
+    Ok(config(None)?.simulation_settings(1))
+}
+
+/// The reverberation of the site's configuration.
+pub fn reverb() -> Result<Option<ReverbSpec>, Failure> {
+    Ok(config(None)?.reverb.spec())
 }
 
 /// Raises `stop` at Ctrl-C, so that a run ends without half-written files.

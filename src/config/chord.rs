@@ -1,11 +1,11 @@
-//! A key chord such as `Ctrl+Alt+S`: keys that are never pressed together by chance.
+//! A key chord such as `Ctrl+Alt+S`: keys that nobody presses together by chance.
 
 use std::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// Keys pressed together. Invariant: at least two modifiers, so that no visitor finds it by leaning on a keyboard.
+/// Keys pressed together. Invariant: at least two modifiers, so that a visitor who leans on a keyboard does not press it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(with = "String")]
@@ -45,7 +45,7 @@ impl FromStr for Chord {
                 key if chord.key.is_empty() && is_key(key) => chord.key = key.into(),
                 other => {
                     return Err(format!(
-                        "\"{other}\" in \"{text}\" is no key: say one letter, one digit or F1 to F12, after Ctrl, Alt or Shift"
+                        "\"{other}\" in \"{text}\" is no key: write one letter, one digit or F1 to F12, after Ctrl, Alt or Shift"
                     ));
                 }
             }
@@ -53,7 +53,7 @@ impl FromStr for Chord {
         let modifiers = [chord.ctrl, chord.alt, chord.shift].iter().filter(|&&held| held).count();
         match (chord.key.is_empty(), modifiers) {
             (true, _) => Err(format!("\"{text}\" names no key: write for example \"Ctrl+Alt+S\"")),
-            (_, 0 | 1) => Err(format!("\"{text}\" is easily pressed by a visitor: hold two of Ctrl, Alt and Shift")),
+            (_, 0 | 1) => Err(format!("\"{text}\" is easily pressed by a visitor: use two of Ctrl, Alt and Shift")),
             _ => Ok(chord),
         }
     }

@@ -1,8 +1,8 @@
-//! What is wrong with a configuration file: every problem at once, with line, column and remedy.
+//! Problems of a configuration file: all at once, each with line, column and remedy.
 //!
-//! Looks at the same text, each finding what the one before cannot: the grammar and then unknown keys and numbers out
-//! of range on the syntax tree (which knows where everything stands), then types through serde, then what does not go
-//! together.
+//! Four checks look at the same text. The grammar comes first, then unknown keys and numbers out of range on the syntax
+//! tree, which knows the place of each key. Types are checked by serde, and last come keys that contradict each other.
+//! Old names of keys are read as the new ones, with a warning (`soffio_exhibit::renamed`).
 
 use std::fmt;
 use std::ops::Range;
@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::{Document, Item, TableLike};
 
 use super::{Config, LIMITS};
+use soffio_exhibit::renamed::{self, FileKind, Updated};
 use soffio_sound::BANDS;
 
 /// A configuration that cannot be used.
@@ -44,80 +45,83 @@ impl ConfigError {
     }
 }
 
+impl Problem {
+    /// The problem with its file, place and remedy, in two lines.
+    pub fn in_file(&self, file: &Path) -> String {
+        let Self { line, column, message, help } = self;
+        let place = if *line > 0 { format!(":{line}:{column}") } else { String::new() };
+        format!("{}{place}: {message}\n  help: {help}", file.display())
+    }
+}
+
 impl fmt::Display for ConfigError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for (i, problem) in self.problems.iter().enumerate() {
-            let Problem { line, column, message, help } = problem;
-            let newline = if i == 0 { "" } else { "\n" };
-            write!(f, "{newline}{}", self.file.display())?;
-            if *line > 0 {
-                write!(f, ":{line}:{column}")?;
-            }
-            write!(f, ": {message}\n  help: {help}")?;
-        }
-        Ok(())
+        let problems: Vec<String> = self.problems.iter().map(|problem| problem.in_file(&self.file)).collect();
+        f.write_str(&problems.join("\n"))
     }
 }
 
 /// What to do where the grammar is broken.
 const GRAMMAR: &str = "a line is `key = value`, with words in \"quotes\" and lists in [ ]; a table begins with [name]";
 
-/// Reads the configuration in `text`.
-pub(super) fn parse(text: &str, file: &Path) -> Result<Config, ConfigError> {
+/// Reads the configuration in `text`. Returns it with a warning for each old name.
+pub(super) fn parse(text: &str, file: &Path) -> Result<(Config, Vec<Problem>), ConfigError> {
     let fail = |problems| Err(ConfigError { file: file.into(), problems });
-    let document = match Document::parse(text) {
+    let source = &Source { text, updated: renamed::update(FileKind::Configuration, text) };
+    let document = match Document::parse(&*source.updated.text) {
         Ok(document) => document,
-        Err(error) => return fail(vec![located(text, error.span(), error.message().into(), GRAMMAR.into())]),
+        Err(error) => return fail(vec![source.located(error.span(), error.message().into(), GRAMMAR.into())]),
     };
-    let mut look = Look { text, problems: Vec::new() };
-    look.table(document.as_table(), &defaults(), "");
-    if !look.problems.is_empty() {
-        return fail(look.problems);
+    let mut check = KeyCheck { source, problems: Vec::new() };
+    check.table(document.as_table(), &defaults(), "");
+    if !check.problems.is_empty() {
+        return fail(check.problems);
     }
-    let config: Config = match toml::from_str(text) {
+    let config: Config = match toml::from_str(&source.updated.text) {
         Ok(config) => config,
         Err(error) => {
             let message = error.message().lines().next().unwrap_or_default().to_owned();
             let key = error.span().and_then(|span| as_in(document.as_table(), &defaults(), span.start));
             let help = key.unwrap_or_else(|| format!("{} shows how it is written", super::FILE));
-            return fail(vec![located(text, error.span(), message, help)]);
+            return fail(vec![source.located(error.span(), message, help)]);
         }
     };
     let one_end = if config.night.from.is_some() { "from" } else { "to" };
-    let together = [("audio", "second_capsule_channel", capsules(&config)), ("room", "t60_s", room(&config))]
-        .into_iter()
-        .chain([("exhibits", "groups", groups(&config))])
-        .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))])
-        .chain([("mqtt", "broker", config.mqtt.broker_problem()), ("mqtt", "topic", config.mqtt.topic_problem())]);
+    let together =
+        [("audio", "second_microphone_channel", dual_microphone(&config)), ("reverb", "t60_s", reverb(&config))]
+            .into_iter()
+            .chain([("exhibits", "groups", groups(&config))])
+            .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))])
+            .chain([("mqtt", "broker", config.mqtt.broker_problem()), ("mqtt", "topic", config.mqtt.topic_problem())]);
     let problems: Vec<Problem> = together
         .filter_map(|(table, key, problem)| {
             let item = document.get(table).and_then(|table| table.get(key));
-            problem.map(|(message, help)| located(text, item.and_then(Item::span), message, help))
+            problem.map(|(message, help)| source.located(item.and_then(Item::span), message, help))
         })
         .collect();
-    if problems.is_empty() { Ok(config) } else { fail(problems) }
+    if problems.is_empty() { Ok((config, source.warnings(file))) } else { fail(problems) }
 }
 
-/// A work stands in one place, and a group has a heading.
+/// An exhibit is in one group only, and a group has a heading.
 fn groups(config: &Config) -> Option<(String, String)> {
     let groups = &config.exhibits.groups;
-    let all: Vec<&String> = groups.iter().flat_map(|group| &group.works).collect();
+    let all: Vec<&String> = groups.iter().flat_map(|group| &group.exhibits).collect();
     if let Some((_, id)) = all.iter().enumerate().find(|(i, id)| all[..*i].contains(id)) {
-        return Some((format!("\"{id}\" stands twice in exhibits.groups"), "name each work in one group".into()));
+        return Some((format!("\"{id}\" is twice in exhibits.groups"), "name each exhibit in one group".into()));
     }
     let bare = groups.iter().find(|group| group.heading.values().all(|text| text.trim().is_empty()))?;
     let help = "give it one for each language, as in heading = { en = \"Mobiles\" }";
-    Some((format!("a group of {} works has no heading", bare.works.len()), help.into()))
+    Some((format!("a group of {} exhibits has no heading", bare.exhibits.len()), help.into()))
 }
 
 /// Seven decays, or none.
-fn room(config: &Config) -> Option<(String, String)> {
-    let given = &config.room.t60_s;
-    let help = "give seven times, s, for 125, 250, 500, 1000, 2000, 4000 and 8000 Hz, or [] for the room's own";
+fn reverb(config: &Config) -> Option<(String, String)> {
+    let given = &config.reverb.t60_s;
+    let help = "give seven times, s, for 125, 250, 500, 1000, 2000, 4000 and 8000 Hz, or [] for those of the named reverberation";
     if !given.is_empty() && given.len() != BANDS.len() {
         return Some((format!("{} times for {} octaves", given.len(), BANDS.len()), help.into()));
     }
-    config.room.spec().and_then(|spec| spec.problem()).map(|problem| (problem, help.into()))
+    config.reverb.spec().and_then(|spec| spec.problem()).map(|problem| (problem, help.into()))
 }
 
 /// A night has an end.
@@ -134,14 +138,14 @@ fn chords(config: &Config) -> Option<(String, String)> {
     twice.map(|(_, chord)| (format!("{chord} has two meanings in [staff]"), "give each its own key".into()))
 }
 
-/// Two capsules are two channels: what is wrong, and what to do.
-fn capsules(config: &Config) -> Option<(String, String)> {
-    let (first, second) = (config.audio.microphone_channel, config.audio.second_capsule_channel);
-    let help = "give the first capsule's channel in `audio.microphone_channel`, from 1, and another one here";
+/// Two microphones are two channels. Returns the problem and its remedy.
+fn dual_microphone(config: &Config) -> Option<(String, String)> {
+    let (first, second) = (config.audio.microphone_channel, config.audio.second_microphone_channel);
+    let help = "give the first microphone's channel in `audio.microphone_channel`, from 1, and another one here";
     let message = match first {
         _ if second == 0 => return None,
-        0 => "a second capsule beside a mix of all channels".to_owned(),
-        _ if first == second => format!("both capsules are channel {first}"),
+        0 => "a second microphone beside a mix of all channels".to_owned(),
+        _ if first == second => format!("both microphones are channel {first}"),
         _ => return None,
     };
     Some((message, help.into()))
@@ -166,13 +170,33 @@ fn as_in(table: &dyn TableLike, known: &toml::Table, at: usize) -> Option<String
     })
 }
 
-/// A walk over the syntax tree beside the table of defaults.
-struct Look<'a> {
+/// The file, and its text with new names, which is what is parsed.
+struct Source<'a> {
     text: &'a str,
+    updated: Updated<'a>,
+}
+
+impl Source<'_> {
+    /// A problem at bytes of the updated text.
+    fn located(&self, span: Option<Range<usize>>, message: String, help: String) -> Problem {
+        located(self.text, span.map(|span| self.updated.original(span)), message, help)
+    }
+
+    /// A warning for each old name.
+    fn warnings(&self, file: &Path) -> Vec<Problem> {
+        let help = format!("`soffio check --fix {}` rewrites the file", file.display());
+        let names = self.updated.replacements.iter();
+        names.map(|name| located(self.text, Some(name.span.clone()), name.to_string(), help.clone())).collect()
+    }
+}
+
+/// Compares the keys of the syntax tree with the table of defaults.
+struct KeyCheck<'a> {
+    source: &'a Source<'a>,
     problems: Vec<Problem>,
 }
 
-impl Look<'_> {
+impl KeyCheck<'_> {
     /// Compares one table with the defaults' table of the same name (`prefix`, empty or ending in a dot).
     fn table(&mut self, table: &dyn TableLike, known: &toml::Table, prefix: &str) {
         for (name, item) in table.iter() {
@@ -184,12 +208,12 @@ impl Look<'_> {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => format!("known here: {}", known.keys().cloned().collect::<Vec<_>>().join(", ")),
                     };
-                    self.problems.push(located(self.text, at, format!("unknown key `{key}`"), help));
+                    self.problems.push(self.source.located(at, format!("unknown key `{key}`"), help));
                 }
                 (Some(toml::Value::Table(known)), Some(table)) => self.table(table, known, &format!("{key}.")),
                 (Some(toml::Value::Table(_)), None) => {
                     let help = format!("write [{key}] on a line of its own, and the keys under it");
-                    self.problems.push(located(self.text, at, format!("`{key}` is a table"), help));
+                    self.problems.push(self.source.located(at, format!("`{key}` is a table"), help));
                 }
                 (Some(default), _) => self.range(&key, item, default),
             }
@@ -204,7 +228,7 @@ impl Look<'_> {
             let unit = if limit.unit == "1" { String::new() } else { format!(" {}", limit.unit) };
             let message = format!("`{key}` is {value}{unit}, outside {} to {}{unit}", limit.low, limit.high);
             let help = format!("choose a number in between; the default is {default}{unit}");
-            self.problems.push(located(self.text, item.span(), message, help));
+            self.problems.push(self.source.located(item.span(), message, help));
         }
     }
 }

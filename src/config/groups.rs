@@ -1,29 +1,29 @@
-//! Groups of works on the page of works: a heading in each language, and the works under it.
+//! Groups on the page of exhibits: a heading in each language, and the exhibits under it.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// A group of works.
+/// A group of exhibits.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Group {
-    /// What stands over it, by language code.
+pub struct ExhibitGroup {
+    /// Heading by language code.
     pub heading: BTreeMap<String, String>,
-    /// Ids of its works; `*` stands for all that no other group names.
-    pub works: Vec<String>,
+    /// Ids of its exhibits; `*` stands for all that no other group names.
+    pub exhibits: Vec<String>,
 }
 
-impl Group {
-    /// Those of the shipped works.
+impl ExhibitGroup {
+    /// The groups of the shipped exhibits.
     pub fn shipped() -> Vec<Self> {
-        let group = |heading: [&str; 7], works: &[&str]| Self {
+        let group = |heading: [&str; 7], exhibits: &[&str]| Self {
             heading: ["en", "de", "fr", "it", "es", "ko", "ja"]
                 .into_iter()
                 .zip(heading)
                 .map(|(code, text)| (code.to_owned(), text.to_owned()))
                 .collect(),
-            works: works.iter().map(|id| (*id).to_owned()).collect(),
+            exhibits: exhibits.iter().map(|id| (*id).to_owned()).collect(),
         };
         vec![
             group(

@@ -47,15 +47,15 @@ impl fmt::Display for TimeOfDay {
     }
 }
 
-/// When the house is quiet: from one time of day to another, over midnight where the first is the later.
+/// Hours of quieter sound, from one time of day to another; over midnight where the first is the later.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Hours {
-    /// Local time at which the night's sound begins, `22:00`; empty leaves it to staff.
+    /// Local time at which the quieter sound begins, `22:00`; empty: staff choose.
     #[serde(with = "time_text")]
     #[schemars(with = "String")]
     pub from: Option<TimeOfDay>,
-    /// Local time at which the day's begins.
+    /// Local time at which it ends.
     #[serde(with = "time_text")]
     #[schemars(with = "String")]
     pub to: Option<TimeOfDay>,

@@ -1,17 +1,22 @@
-//! The site's configuration: what differs between two museums, never between two exhibits.
+//! The site's configuration: settings that differ between museums, never between exhibits.
 //!
-//! One annotated file, `kiosk-config/kiosk.toml`; the command line stands over it and the built-in defaults under it.
-//! Every key has a unit, a range and a default. The shipped file *is* the default (a test compares), and the
-//! defaults are the only list of keys there is: a key they do not have is unknown (`config/diagnose.rs`).
+//! They are in one annotated file, `kiosk-config/kiosk.toml`. Options of the command line take precedence over it, and
+//! built-in defaults fill what it leaves out. Every key has a unit, a range and a default. The shipped file *is* the
+//! default (a test compares), and the defaults are the only list of keys: any other key is unknown (`diagnose.rs`).
 //!
 //! Invariant: a [`Config`] that came from [`Config::load`] or [`Config::parse`] is inside every range of [`LIMITS`].
 //!
 //! It reads one file, and writes none. It never applies a setting: the kiosk and the program do. A mistake in the file is a
-//! [`ConfigError`] that lists all problems with their lines and the nearest valid key.
+//! [`ConfigError`] that lists all problems with their lines and the nearest valid key. Old names of keys are read with a
+//! warning (`soffio_exhibit::renamed`).
 //!
-//! The main types are [`Config`] (one table per concern), [`OpenHours`] and [`Hours`] (when the house is open, quiet or
-//! dark), [`Pin`] (the staff's, as an Argon2 hash), [`Chord`] (keys pressed together) and [`remedies`] (what to tell staff
-//! when a device is missing).
+//! | type | holds |
+//! |---|---|
+//! | [`Config`] | all settings, one table per concern |
+//! | [`OpenHours`], [`Hours`] | opening hours; hours of quieter sound |
+//! | [`Pin`] | the staff's PIN as an Argon2 hash |
+//! | [`Chord`] | keys pressed together |
+//! | [`remedies`] | advice for staff about a microphone |
 //!
 //! ```
 //! use std::path::Path;
@@ -31,30 +36,31 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use soffio_exhibit::renamed::{FileKind, add_old_names};
 use soffio_simulation::{Profile, Settings};
 use soffio_sound::{MOST_PARTIALS, ReverbSpec, VolumeSettings};
 
-mod care;
 pub mod chord;
 mod diagnose;
 mod groups;
 mod hours;
+mod maintenance;
 mod mqtt;
 mod opening;
 mod pin;
 pub mod remedies;
 mod time_text;
 
-pub use care::{CLEANING_S, Care};
 pub use chord::Chord;
 pub use diagnose::{ConfigError, Problem};
-pub use groups::Group;
+pub use groups::ExhibitGroup;
 pub use hours::{Hours, TimeOfDay};
+pub use maintenance::{CLEANING_S, MaintenanceSettings};
 pub use mqtt::{MqttOrder, MqttSettings};
 pub use opening::{Day, Holiday, OpenHours, Opening};
 pub use pin::{DIGITS, Pin};
 
-/// Where the file lies, below the working directory or one of its parents.
+/// Place of the file, below the working directory or one of its parents.
 pub const FILE: &str = "kiosk-config/kiosk.toml";
 
 /// Stands in `exhibits.show` for all exhibits that are not named.
@@ -66,33 +72,33 @@ pub const OTHERS: &str = "*";
 pub struct Config {
     /// The picture.
     pub screen: Screen,
-    /// What is shown.
+    /// The exhibits on offer.
     pub exhibits: Exhibits,
     /// From breath to wind.
     pub breath: Breath,
     /// Microphone and loudspeaker.
     pub audio: AudioSettings,
-    /// The room that the sounds are heard in.
-    pub room: RoomSettings,
+    /// Reverberation of the sounds.
+    pub reverb: ReverbSettings,
     /// How loud it may be.
     pub volume: Loudness,
-    /// When the house is quiet.
+    /// Hours of quieter sound.
     pub night: Hours,
-    /// When the house is open.
+    /// Opening hours.
     pub opening: Opening,
-    /// What the kiosk looks after by itself.
-    pub care: Care,
+    /// Checks that the kiosk does by itself.
+    pub maintenance: MaintenanceSettings,
     /// What visitors may do.
     pub visit: Visit,
     /// Other ways to blow and to aim.
     pub controllers: ControllerSettings,
-    /// What happens when nobody is there.
+    /// Attract mode, which plays when nobody is there.
     pub attract: AttractSettings,
     /// Staff only.
     pub staff: Staff,
-    /// Whoever looks after many kiosks.
+    /// Remote status and commands.
     pub mqtt: MqttSettings,
-    /// Words.
+    /// Languages of the texts.
     pub languages: Languages,
 }
 
@@ -114,7 +120,7 @@ impl Default for Screen {
     }
 }
 
-/// What is shown.
+/// The exhibits on offer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Exhibits {
@@ -122,10 +128,10 @@ pub struct Exhibits {
     pub show: Vec<String>,
     /// Folder that holds the exhibits' folders.
     pub folder: PathBuf,
-    /// Load an exhibit anew when a file in its folder changes, and notice folders that come and go.
+    /// Reload an exhibit when a file in its folder changes, and notice new and removed folders.
     pub hot_reload: bool,
-    /// How the works are grouped on the page of works, in this order.
-    pub groups: Vec<Group>,
+    /// Groups on the page of exhibits, in this order.
+    pub groups: Vec<ExhibitGroup>,
 }
 
 impl Default for Exhibits {
@@ -135,7 +141,7 @@ impl Default for Exhibits {
             show: first.map(str::to_owned).into(),
             folder: "exhibits".into(),
             hot_reload: true,
-            groups: Group::shipped(),
+            groups: ExhibitGroup::shipped(),
         }
     }
 }
@@ -144,14 +150,14 @@ impl Default for Exhibits {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Breath {
-    /// How a breath becomes wind: `gallery` or `true`.
+    /// How a breath becomes wind: `gallery` or `physical`.
     #[serde(with = "ProfileName")]
     #[schemars(with = "ProfileName")]
     pub profile: Profile,
     /// Multiplies the force of the breath on top of the profile's own gain.
     pub gain: f64,
-    /// Added to the microphone's level before it becomes a speed, dB: how strong a breath is taken to be, never whether
-    /// it is one. `soffio doctor --blow` proposes it.
+    /// Added to the microphone's level before it becomes a speed, dB. It scales the strength of a breath and has no
+    /// effect on its detection. `soffio doctor --blow` proposes it.
     pub sensitivity_db: f64,
     /// Distance of the lips before the sculpture, m.
     pub distance_m: f64,
@@ -172,12 +178,11 @@ impl Default for Breath {
     }
 }
 
-/// Names of the two profiles in the file; `true` is the old name of `physical`.
+/// Names of the two profiles in the file.
 #[derive(Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(remote = "Profile", rename_all = "lowercase")]
 enum ProfileName {
     Gallery,
-    #[serde(alias = "true")]
     Physical,
 }
 
@@ -187,22 +192,22 @@ enum ProfileName {
 pub struct AudioSettings {
     /// Id (`soffio devices`) or any part of the microphone's name; empty is the system's own choice.
     pub microphone: String,
-    /// Which of its channels listens, from 1; 0 takes all: two as two capsules, more as one mix.
+    /// Channel to use, from 1. 0: all channels; two are two microphones, more are mixed to one.
     pub microphone_channel: u16,
-    /// Which other channel of it is a second capsule, from 1; 0 where there is one capsule only.
-    pub second_capsule_channel: u16,
-    /// Id or any part of the loudspeaker's name; empty is the system's own choice.
-    pub loudspeaker: String,
+    /// Channel of a second microphone in the same device, from 1; 0: none is named.
+    pub second_microphone_channel: u16,
+    /// Output device: id or any part of the loudspeaker's name; empty is the system's own choice.
+    pub output: String,
     /// Id or any part of the name of a second output, for a hearing loop; empty for none.
     pub hearing_loop: String,
-    /// Volume of the hearing loop, dB of full scale: fixed, whatever visitors do to the loudspeaker.
+    /// Volume of the hearing loop, dB of full scale. Visitors cannot change it.
     pub hearing_loop_db: f64,
     /// Volume that every visitor finds, dB of full scale.
     pub volume_db: f64,
-    /// Length of one block of either device, ms: short answers at once, long never stutters. 5 takes 5 ms off the way
-    /// from a hit to its sound, where the device offers it; the staff panel's status says so, and counts late blocks.
+    /// Length of one sound block, ms. Short blocks are heard sooner, long ones never stutter. With 5 ms a hit is heard
+    /// 5 ms sooner than with 10, where the device allows it. The staff panel shows the length, and counts late blocks.
     pub block_ms: f64,
-    /// Most partials that ring at once; the quietest leave first.
+    /// Limit of sounding partials; the quietest are stopped first.
     pub most_partials: u32,
 }
 
@@ -211,8 +216,8 @@ impl Default for AudioSettings {
         Self {
             microphone: String::new(),
             microphone_channel: 0,
-            second_capsule_channel: 0,
-            loudspeaker: String::new(),
+            second_microphone_channel: 0,
+            output: String::new(),
             hearing_loop: String::new(),
             hearing_loop_db: -6.0,
             volume_db: -6.0,
@@ -222,38 +227,38 @@ impl Default for AudioSettings {
     }
 }
 
-/// The room that the sounds are heard in.
+/// Reverberation of the sounds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
-pub struct RoomSettings {
-    /// Which one.
-    pub name: RoomName,
-    /// Energy of its reverberation over the sound itself, dB.
+pub struct ReverbSettings {
+    /// Which reverberation.
+    pub name: ReverbName,
+    /// Energy of the reverberation relative to the direct sound, dB.
     pub level_db: f64,
-    /// Times in which it decays by 60 dB at 125, 250, 500, 1000, 2000, 4000 and 8000 Hz, s; empty: the named room's own.
+    /// Times in which it decays by 60 dB at 125, 250, 500, 1000, 2000, 4000 and 8000 Hz, s; empty: those of the named reverberation.
     pub t60_s: Vec<f64>,
 }
 
-/// A room by its name.
+/// A reverberation by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum RoomName {
-    /// The open air.
+pub enum ReverbName {
+    /// None, as in the open air.
     Off,
     /// A gallery with plastered walls.
     Gallery,
 }
 
-impl Default for RoomSettings {
+impl Default for ReverbSettings {
     fn default() -> Self {
-        Self { name: RoomName::Gallery, level_db: ReverbSpec::GALLERY.level_db, t60_s: Vec::new() }
+        Self { name: ReverbName::Gallery, level_db: ReverbSpec::GALLERY.level_db, t60_s: Vec::new() }
     }
 }
 
-impl RoomSettings {
-    /// The room as the synth builds it; `None` is the open air.
+impl ReverbSettings {
+    /// The reverberation as the synth builds it; `None` is the open air.
     pub fn spec(&self) -> Option<ReverbSpec> {
-        let RoomName::Gallery = self.name else { return None };
+        let ReverbName::Gallery = self.name else { return None };
         let t60 = self.t60_s.as_slice().try_into().unwrap_or(ReverbSpec::GALLERY.t60);
         Some(ReverbSpec { level_db: self.level_db, t60 })
     }
@@ -267,10 +272,10 @@ pub struct Loudness {
     pub step_db: f64,
     /// Steps up, and as many down; 0 leaves the volume to staff.
     pub steps: u32,
-    /// What a sound meter shows at the visitor's ear for a full-scale sine at a volume of 0 dB, dB(A); 0 where nobody has
-    /// measured it, and then there is no cap.
+    /// Level at the listening position for a full-scale sine at a volume of 0 dB, dB(A). 0: not measured, and then the level
+    /// is not limited.
     pub full_scale_db_spl: f64,
-    /// Greatest mean level at the visitor's ear, dB(A).
+    /// Greatest mean level at the listening position, dB(A).
     pub max_laeq_db: f64,
 }
 
@@ -284,19 +289,19 @@ impl Default for Loudness {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ControllerSettings {
-    /// Which kinds are listened to.
+    /// Kinds of controllers in use.
     pub listen: Vec<ControllerKind>,
     /// Key, or switch that acts as one, that blows while it is held, as it is called on a US keyboard.
     pub key: String,
-    /// Key, or button with a raised mark, that reads aloud what is written, and hushes.
+    /// Key, or button with a raised mark, that starts and stops reading aloud.
     pub read_key: String,
     /// How fast a stick at its end or an arrow key moves the aim, heights of the picture a second.
     pub stick_speed: f64,
-    /// Any part of the name of the MIDI port; empty takes the first instrument there is.
+    /// Any part of the name of the MIDI port; empty takes the first instrument.
     pub midi: String,
     /// Number of the control change that is breath.
     pub midi_controller: u8,
-    /// Address and port at which OSC messages are heard.
+    /// Address and port at which OSC messages are received.
     pub osc: String,
     /// Device of a serial line.
     pub serial: String,
@@ -346,13 +351,13 @@ impl ControllerKind {
     }
 }
 
-/// What happens when nobody is there.
+/// Attract mode, which plays when nobody is there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttractSettings {
     /// Play the exhibit's attract script when nobody is there.
     pub enabled: bool,
-    /// Time without any input, breath included, after which nobody is there, s.
+    /// Time without any input, breath included, after which attract mode begins, s.
     pub idle_s: f64,
     /// Play it without a sound.
     pub silent: bool,
@@ -368,22 +373,21 @@ impl Default for AttractSettings {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Visit {
-    /// May they blow? Where they may not, in times of an outbreak, the microphone is closed, and the invitation says
-    /// that they press and hold.
+    /// May visitors blow? If not, as in an outbreak, the microphone is off, and the invitation asks them to press and
+    /// hold.
     pub breath: bool,
-    /// A press begins the breath and the next one ends it, so that nobody must hold; visitors can choose it too.
+    /// A press begins the breath and the next one ends it, for visitors who cannot hold. They can choose it too.
     pub press_once: bool,
-    /// Who rests the pointer on something presses it, so that nobody must press; visitors can choose it too.
+    /// Resting the pointer on something presses it, for visitors who cannot press. They can choose it too.
     pub dwell: bool,
-    /// How long it rests, s.
+    /// How long the pointer rests until it presses, s.
     pub dwell_s: f64,
     /// Time without a touch after which the page behind "More" closes, s.
     pub page_closes_s: f64,
-    /// Less motion: a work is there at once instead of gathering its parts, no dust in the air, gentler attract mode;
-    /// visitors can choose it too.
-    pub calm: bool,
-    /// Program that reads aloud: `espeak-ng`, or one that takes its arguments; empty: nothing is read.
-    pub reads_aloud: String,
+    /// Less motion: no assembly animation, no dust in the air, gentler attract mode. Visitors can choose it too.
+    pub reduced_motion: bool,
+    /// Program that reads aloud: `espeak-ng`, or one that takes the same arguments; empty: none.
+    pub read_aloud: String,
 }
 
 /// Default of [`Visit::page_closes_s`], s: 30 s or more, with a countdown (Natural History Museum, London).
@@ -397,8 +401,8 @@ impl Default for Visit {
             dwell: false,
             dwell_s: 1.2,
             page_closes_s: PAGE_CLOSES_S,
-            calm: false,
-            reads_aloud: "espeak-ng".into(),
+            reduced_motion: false,
+            read_aloud: "espeak-ng".into(),
         }
     }
 }
@@ -411,17 +415,19 @@ pub struct Staff {
     pub chord: Chord,
     /// Hash of the PIN that it asks for (`soffio pin`); without one the panel shows and changes nothing.
     pub pin: Pin,
-    /// Time without a touch after which it closes, s.
+    /// Language of the panel; empty: the language that visitors find first, else English.
+    pub language: String,
+    /// Time without a touch after which the panel closes, s.
     pub closes_s: f64,
-    /// Keys that open the kiosk while the house is closed, and close it again.
+    /// Keys that open the kiosk outside opening hours, and close it again.
     pub open: Chord,
-    /// Keys that mute the kiosk, and let it sound again.
+    /// Keys that mute and unmute the kiosk.
     pub mute: Chord,
-    /// Keys that go from the configured hours to night, to day, and back.
+    /// Keys that switch from the configured hours to night, to day, and back.
     pub night: Chord,
-    /// File that gets the kiosk's numbers every 15 s, in the text format of Prometheus; empty for none.
+    /// File for the kiosk's metrics, written every 15 s in the text format of Prometheus; empty: none.
     pub metrics: PathBuf,
-    /// Folder for what outlives a restart; empty for the system's own place.
+    /// Folder for the state that is kept over a restart; empty: the system's own place.
     pub state: PathBuf,
 }
 
@@ -431,6 +437,7 @@ impl Default for Staff {
         Self {
             chord: chord("S"),
             pin: Pin::default(),
+            language: String::new(),
             closes_s: 120.0,
             open: chord("O"),
             mute: chord("M"),
@@ -441,7 +448,7 @@ impl Default for Staff {
     }
 }
 
-/// Words.
+/// Languages of the texts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Languages {
@@ -473,12 +480,12 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "breath.distance_m", low: 0.1, high: 2.0, unit: "m" },
     Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
-    Limit { key: "audio.second_capsule_channel", low: 0.0, high: 64.0, unit: "1" },
+    Limit { key: "audio.second_microphone_channel", low: 0.0, high: 64.0, unit: "1" },
     Limit { key: "audio.hearing_loop_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.volume_db", low: -60.0, high: 0.0, unit: "dB" },
     Limit { key: "audio.block_ms", low: 2.0, high: 100.0, unit: "ms" },
     Limit { key: "audio.most_partials", low: 16.0, high: 65_536.0, unit: "1" },
-    Limit { key: "room.level_db", low: -40.0, high: 6.0, unit: "dB" },
+    Limit { key: "reverb.level_db", low: -40.0, high: 6.0, unit: "dB" },
     Limit { key: "volume.step_db", low: 1.0, high: 10.0, unit: "dB" },
     Limit { key: "volume.steps", low: 0.0, high: 10.0, unit: "1" },
     Limit { key: "volume.full_scale_db_spl", low: 0.0, high: 140.0, unit: "dB(A)" },
@@ -486,30 +493,67 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "controllers.stick_speed", low: 0.05, high: 5.0, unit: "1/s" },
     Limit { key: "controllers.midi_controller", low: 0.0, high: 127.0, unit: "1" },
     Limit { key: "controllers.serial_baud", low: 300.0, high: 4e6, unit: "1/s" },
-    Limit { key: "care.foam_blows", low: 0.0, high: 1e6, unit: "1" },
-    Limit { key: "care.cleaning_s", low: 5.0, high: 600.0, unit: "s" },
+    Limit { key: "maintenance.foam_blows", low: 0.0, high: 1e6, unit: "1" },
+    Limit { key: "maintenance.cleaning_s", low: 5.0, high: 600.0, unit: "s" },
     Limit { key: "visit.dwell_s", low: 0.3, high: 5.0, unit: "s" },
     Limit { key: "visit.page_closes_s", low: 10.0, high: 600.0, unit: "s" },
     Limit { key: "attract.idle_s", low: 1.0, high: 3600.0, unit: "s" },
     Limit { key: "staff.closes_s", low: 10.0, high: 3600.0, unit: "s" },
 ];
 
+/// A configuration with the file that it comes from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LoadedConfig {
+    /// The configuration.
+    pub config: Config,
+    /// The file; `None` for the built-in default.
+    pub file: Option<PathBuf>,
+    /// Old names in the file, which were read as the new ones.
+    pub warnings: Vec<Problem>,
+}
+
+impl LoadedConfig {
+    /// Each warning with its file, place and remedy.
+    pub fn warning_texts(&self) -> impl Iterator<Item = String> {
+        let file = self.file.as_deref().unwrap_or(Path::new(FILE));
+        self.warnings.iter().map(move |warning| warning.in_file(file))
+    }
+}
+
 impl Config {
     /// The configuration of this site: the file at `path`, or [`FILE`] in the working directory or above it, or
-    /// `/etc/soffio/kiosk.toml` of an installed program, or the built-in default. Says which file it was.
-    pub fn load(path: Option<&Path>) -> Result<(Self, Option<PathBuf>), ConfigError> {
+    /// `/etc/soffio/kiosk.toml` of an installed program, or the built-in default.
+    ///
+    /// # Errors
+    ///
+    /// The file cannot be read, or has problems; all of them are in the error.
+    pub fn load(path: Option<&Path>) -> Result<LoadedConfig, ConfigError> {
         let found = path.map(Path::to_path_buf).or_else(find);
-        let Some(file) = found else { return Ok((Self::default(), None)) };
+        let Some(file) = found else { return Ok(LoadedConfig::default()) };
         let text = std::fs::read_to_string(&file).map_err(|error| ConfigError::unreadable(&file, &error))?;
-        Ok((Self::parse(&text, &file)?, Some(file)))
+        let (config, warnings) = diagnose::parse(&text, &file)?;
+        Ok(LoadedConfig { config, file: Some(file), warnings })
     }
 
-    /// Reads a configuration from the text of `file` (the name appears in messages). All problems are said at once.
+    /// Reads a configuration from the text of `file`, whose name appears in messages.
+    ///
+    /// # Errors
+    ///
+    /// The text has problems; all of them are in the error.
     pub fn parse(text: &str, file: &Path) -> Result<Self, ConfigError> {
+        Self::parse_with_warnings(text, file).map(|(config, _)| config)
+    }
+
+    /// As [`Config::parse`], with a warning for each old name in the text.
+    ///
+    /// # Errors
+    ///
+    /// As [`Config::parse`].
+    pub fn parse_with_warnings(text: &str, file: &Path) -> Result<(Self, Vec<Problem>), ConfigError> {
         diagnose::parse(text, file)
     }
 
-    /// What the volume needs of it.
+    /// Settings of the volume.
     pub fn volume_settings(&self) -> VolumeSettings {
         VolumeSettings {
             default_db: self.audio.volume_db,
@@ -520,7 +564,7 @@ impl Config {
         }
     }
 
-    /// What the simulation needs of it.
+    /// Settings of the simulation, with the seed of all random numbers.
     pub fn simulation_settings(&self, seed: u64) -> Settings {
         Settings {
             profile: self.breath.profile,
@@ -534,7 +578,7 @@ impl Config {
     }
 }
 
-/// JSON Schema (draft 2020-12) of the file, with the ranges of [`LIMITS`].
+/// JSON Schema (draft 2020-12) of the file, with the ranges of [`LIMITS`]. Old names are marked as deprecated.
 pub fn schema() -> serde_json::Value {
     let inline = schemars::generate::SchemaSettings::draft2020_12().with(|settings| settings.inline_subschemas = true);
     let mut schema = inline.into_generator().into_root_schema_for::<Config>().to_value();
@@ -545,6 +589,7 @@ pub fn schema() -> serde_json::Value {
             number.insert("maximum".into(), limit.high.into());
         }
     }
+    add_old_names(FileKind::Configuration, &mut schema);
     schema
 }
 

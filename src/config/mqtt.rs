@@ -1,39 +1,39 @@
-//! The line to a broker in the house.
+//! Settings of the MQTT connection to a broker in the museum's network.
 
 use serde::{Deserialize, Serialize};
 
 /// Port of a broker that names none.
 const PORT: u16 = 1883;
 
-/// Where the kiosk tells how it is, and takes orders.
+/// Broker to which the kiosk reports its state, and from which it takes commands.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MqttSettings {
     /// Host or host:port; empty for none.
     pub broker: String,
-    /// What its topics begin with, another for each kiosk.
+    /// Prefix of its topics, one for each kiosk.
     pub topic: String,
-    /// Name at the broker; empty where none is asked for.
+    /// User name at the broker; empty where none is needed.
     pub user: String,
-    /// Its password, which goes over the wire in the clear.
+    /// Password, sent unencrypted.
     pub password: String,
-    /// Orders that are obeyed.
+    /// Commands that are accepted.
     pub obeys: Vec<MqttOrder>,
 }
 
-/// What a broker's message may order.
+/// A command that a broker's message may give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum MqttOrder {
-    /// The work on show from its files again.
+    /// Reload the exhibit on show from its files.
     Reload,
-    /// Black, mute, the microphone closed.
+    /// Black screen, no sound, the microphone off.
     Blank,
-    /// An end of that.
+    /// The end of that.
     Wake,
-    /// Silence, or an end of it.
+    /// Mute or unmute.
     Mute,
-    /// Another work.
+    /// Show another exhibit.
     Exhibit,
 }
 

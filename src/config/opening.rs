@@ -1,4 +1,4 @@
-//! Opening hours: ranges of weekdays with their times, and days on which the house is closed.
+//! Opening hours: ranges of weekdays with their times, and closed days.
 
 use std::fmt;
 use std::str::FromStr;
@@ -25,7 +25,7 @@ pub struct Day {
     pub weekday: u8,
 }
 
-/// When the house is open. Without hours it is open on every day that is no holiday.
+/// Opening hours of the venue. Without hours it is open on every day that is no holiday.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Opening {
@@ -37,20 +37,22 @@ pub struct Opening {
 }
 
 impl Opening {
-    /// Is the house open at this time of `today`? What began before midnight belongs to `yesterday`.
+    /// Is the venue open at this time of `today`? Hours that began before midnight belong to `yesterday`.
     pub fn contains(&self, today: Day, yesterday: Day, time: TimeOfDay) -> bool {
-        let works = |day: Day| !self.holidays.iter().any(|holiday| holiday.is(day));
+        let is_open_day = |day: Day| !self.holidays.iter().any(|holiday| holiday.is(day));
         if self.hours.is_empty() {
-            return works(today);
+            return is_open_day(today);
         }
         self.hours.iter().any(|hours| {
             let over_midnight = hours.to <= hours.from;
             let evening = hours.days[usize::from(today.weekday % 7)]
-                && works(today)
+                && is_open_day(today)
                 && time >= hours.from
                 && (over_midnight || time < hours.to);
-            let night =
-                over_midnight && hours.days[usize::from(yesterday.weekday % 7)] && works(yesterday) && time < hours.to;
+            let night = over_midnight
+                && hours.days[usize::from(yesterday.weekday % 7)]
+                && is_open_day(yesterday)
+                && time < hours.to;
             evening || night
         })
     }
@@ -97,7 +99,7 @@ impl fmt::Display for OpenHours {
     }
 }
 
-/// A day on which the house is closed.
+/// A closed day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(with = "String")]

@@ -1,5 +1,5 @@
-//! The staff's PIN. The configuration holds its Argon2id hash, never the digits: whoever reads the file has to try
-//! them one by one, and each try costs 19 MiB and some hundredths of a second.
+//! The staff's PIN. The configuration holds its Argon2id hash, never the digits. A reader of the file has to try PINs one
+//! by one, and each try costs 19 MiB and some hundredths of a second.
 
 use std::ops::RangeInclusive;
 
@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 /// How many digits a PIN may have.
 pub const DIGITS: RangeInclusive<usize> = 4..=12;
 
-/// A hash may ask for no more memory than this, KiB: a slip of the pen must not stop the kiosk at the first try.
+/// Most memory that a hash may need, KiB: a typing error must not stop the kiosk at the first try.
 const MOST_MEMORY: u32 = 256 * 1024;
-/// Nor for more passes.
+/// Most passes that a hash may need.
 const MOST_PASSES: u32 = 16;
 
 /// A PIN as its hash in the text form of PHC strings; empty where none is set.
@@ -22,7 +22,11 @@ const MOST_PASSES: u32 = 16;
 pub struct Pin(String);
 
 impl Pin {
-    /// The hash of these digits with 16 random bytes. The error says what is wrong with the digits.
+    /// The hash of these digits with 16 random bytes.
+    ///
+    /// # Errors
+    ///
+    /// The digits are too few or too many, or something else than digits.
     pub fn new(digits: &str, salt: &[u8; 16]) -> Result<Self, String> {
         if !DIGITS.contains(&digits.len()) || !digits.bytes().all(|b| b.is_ascii_digit()) {
             return Err(format!("a PIN has {} to {} digits and nothing else", DIGITS.start(), DIGITS.end()));
@@ -60,7 +64,7 @@ impl TryFrom<String> for Pin {
         }
         let params = Params::try_from(&hash).map_err(|error| wrong(&error.to_string()))?;
         if params.m_cost() > MOST_MEMORY || params.t_cost() > MOST_PASSES {
-            return Err(wrong("it asks for too much memory or time"));
+            return Err(wrong("it needs too much memory or time"));
         }
         Ok(Self(text))
     }

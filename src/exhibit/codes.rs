@@ -75,6 +75,7 @@ codes! {
     IMAGE = "E0304", "an image of the model cannot be decoded";
     CYCLE = "E0305", "the node tree of the model is not a tree";
     CONFIG = "E0501", "the site's configuration is invalid";
+    SCENE = "E0502", "a physics scene is invalid";
     TEXTS = "E0503", "a file of the kiosk's own texts is invalid";
     NEW = "E0601", "a new exhibit cannot be made from this input";
     TABLE = "E0602", "a table of label texts cannot be merged";
@@ -88,5 +89,6 @@ codes! {
     MASS_RATIO = "W0409", "two joined bodies differ in mass by more than a million";
     UNUSED = "W0410", "a value has no effect";
     LATE = "W0411", "a step misses its deadline";
+    OLD_NAME = "W0412", "a key or a word has its old name";
     MISSING_TEXTS = "W0413", "a file of the kiosk's own texts lacks some, or leaves out a variable";
 }

@@ -13,6 +13,7 @@
 //! | [`Report`], [`Diagnostic`], [`codes`] | problems: what is wrong, where, and what to do |
 //! | [`sidecar`] | the tables of `exhibit.toml`, from which the JSON Schema is made |
 //! | [`model`] | the glTF model: meshes, materials, nodes, animations, cameras |
+//! | [`renamed`] | old names of keys, for reading, the schema and `soffio check --fix` |
 //! | [`labels`] | label texts by language, and as a table for translators |
 //!
 //! ```
@@ -42,6 +43,7 @@ mod pairs;
 pub mod paths;
 mod presentation;
 pub mod quantity;
+pub mod renamed;
 mod resolve;
 pub mod schema;
 pub mod shape_tracks;

@@ -12,14 +12,17 @@ use toml_edit::{Document, Item, TableLike};
 
 use super::codes;
 use super::diagnostic::{Diagnostic, Location};
+use super::renamed::{self, FileKind, Updated};
 
 /// A parsed sidecar.
 #[derive(Clone, Debug)]
 pub struct SidecarText {
     /// Name of the file for messages.
     pub file: String,
-    /// The text.
-    pub text: Arc<str>,
+    /// The text of the file, old names included.
+    text: Arc<str>,
+    /// What is parsed: the text with new names. Spans are those of this text.
+    updated: Updated<'static>,
     /// The values without `x_` keys.
     pub value: Value,
     values: BTreeMap<String, Range<usize>>,
@@ -32,17 +35,19 @@ impl SidecarText {
     /// # Errors
     /// The syntax error, with its position.
     pub fn parse(file: &str, text: &str) -> Result<Self, Diagnostic> {
+        let Updated { text: parsed, replacements } = renamed::update(FileKind::Sidecar, text);
         let mut source = Self {
             file: file.to_owned(),
             text: text.into(),
+            updated: Updated { text: parsed.clone().into_owned().into(), replacements },
             value: Value::Null,
             values: BTreeMap::new(),
             keys: BTreeMap::new(),
         };
-        match Document::parse(text) {
+        match Document::parse(&*parsed) {
             Ok(document) => {
                 source.value = source.table(document.as_table(), "");
-                source.values.insert(String::new(), 0..text.lines().next().map_or(0, str::len));
+                source.values.insert(String::new(), 0..parsed.lines().next().map_or(0, str::len));
                 Ok(source)
             }
             Err(error) => {
@@ -144,8 +149,25 @@ impl SidecarText {
         keys.into_iter().map(|(_, key)| key).collect()
     }
 
-    /// Line and column of a range of bytes. A range over several lines (a table) is cut after its first.
+    /// A warning for each old name.
+    pub fn old_names(&self) -> impl Iterator<Item = Diagnostic> {
+        let file = &self.file;
+        self.updated.replacements.iter().map(move |name| {
+            let mut diagnostic = Diagnostic::new(codes::OLD_NAME, name.to_string())
+                .label("old name")
+                .help(format!("`soffio check --fix {file}` rewrites the file"));
+            diagnostic.location = Some(self.place(name.span.clone()));
+            diagnostic
+        })
+    }
+
+    /// Line and column of a range of bytes of the parsed text. A range over several lines (a table) is cut after its first.
     pub fn locate(&self, span: Range<usize>) -> Location {
+        self.place(self.updated.original(span))
+    }
+
+    /// Line and column of bytes of the file.
+    fn place(&self, span: Range<usize>) -> Location {
         let start = span.start.min(self.text.len());
         let before = self.text.get(..start).unwrap_or_default();
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);

@@ -1,12 +1,12 @@
 //! The live kiosk: window, visitor, attract mode, staff.
 //!
-//! Two threads do the work. The simulation thread ([`live`]) owns everything that moves and keeps the time; the window
-//! thread ([`window`]) draws the latest two moments and passes on what the visitor does. What happens in one step is in
-//! [`step`], which knows no clock and no device, so that tests and recordings run exactly what visitors see.
+//! There are two threads. The simulation thread ([`live`]) owns everything that moves and keeps the time. The window thread
+//! ([`window`]) draws frames between the last steps, and sends the visitor's input. A single step is in [`step`], which knows
+//! no clock and no device, so that tests and recordings run exactly the code that visitors see.
 //!
-//! The rooms stand in their order: each uses only those before it (`tests/suite/kiosk/rooms.rs`).
+//! The modules are in order: each uses only those before it (`tests/suite/kiosk/modules.rs`).
 
-// What visitors do and find.
+// Visitors.
 pub mod attract;
 
 pub mod visitor;
@@ -15,18 +15,18 @@ pub mod venue;
 
 pub mod pages;
 
-// What moves.
+// Simulation.
 pub mod step;
 
 pub mod live;
 
-// Who looks after it.
+// Operation.
 pub mod fleet;
 
 pub mod staff;
 
-// What shows it.
+// Window.
 pub mod window;
 
-// The panel library: its types stand in what pages and panels take and give.
+// The panel library: its types are in the signatures of pages and panels.
 pub use {egui, egui_wgpu};

@@ -13,8 +13,8 @@ use soffio_devices::audio::output::{self, Engine, Player, Workshop};
 use soffio_devices::audio::{Heard, Knobs, ReferenceTap, input};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::step::controls::Controls;
+use soffio_kiosk::step::instruments::SynthSetup;
 use soffio_kiosk::step::stage::Stage;
-use soffio_kiosk::step::voice::Voice;
 use soffio_kiosk::venue::site::Site;
 use soffio_math::from_decibels;
 use soffio_sound::{SoundCommand, Volume, WindSound};
@@ -56,7 +56,7 @@ pub struct KioskUnderTest {
     tap: ReferenceTap,
     received: Heard,
     volume: Volume,
-    voice: Voice,
+    voice: SynthSetup,
     generation: u64,
 }
 
@@ -67,8 +67,11 @@ impl KioskUnderTest {
         volume.step(i32::MAX);
         let [output, still_air] = [(); 2].map(|()| AudioOutput::new(from_decibels(volume.db()) as f32));
         let (recorder, microphone) = input::open(SAMPLE_RATE_HZ, capsules, [0, 0]);
-        let voice =
-            Voice { room: site.room, most_partials: site.audio.most_partials as usize, seed: site.settings.seed };
+        let voice = SynthSetup {
+            reverb: site.reverb,
+            most_partials: site.audio.most_partials as usize,
+            seed: site.settings.seed,
+        };
         let mut kiosk = Self {
             stage: Stage::new(exhibit.clone(), site.settings, None, site.idle_s),
             output,

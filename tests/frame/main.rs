@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
 use soffio_exhibit::Exhibit;
-use soffio_kiosk::step::moments::Moments;
+use soffio_kiosk::step::frame_interpolation::SnapshotHistory;
 use soffio_math::{DQuat, Pose};
 use soffio_render::{FrameInput, Gpu, Options, RenderError, Renderer};
 use soffio_simulation::{DustParticle, Settings, Simulation, Snapshot, StepInput};
@@ -114,13 +114,13 @@ fn the_moment_that_a_picture_shows_is_found_in_memory_that_is_there() {
     let _alone = alone();
     let exhibit = std::sync::Arc::new(shipped("steel-fish"));
     let mut simulation = Simulation::new(exhibit, Settings::default());
-    let mut moments = Moments::new(&simulation.snapshot());
+    let mut history = SnapshotHistory::new(&simulation.snapshot());
     let mut moment = Snapshot::default();
     for step in 0..120 {
         simulation.step(&StepInput::default());
-        moments.push(&simulation.snapshot());
+        history.push(&simulation.snapshot());
         let region = Region::new(ALLOCATOR);
-        moments.before(1.3, &mut moment);
+        history.interpolate(1.3, &mut moment);
         let requested = region.change();
         assert!(step == 0 || requested.allocations + requested.reallocations == 0, "step {step}: {requested:?}");
     }

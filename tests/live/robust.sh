@@ -178,7 +178,7 @@ gaps() {
 devices_out() {
     local t microphone loudspeaker rows gaps code=0
     # The loudspeaker is configured by name, or another one would replace it.
-    configured "$workdir/out.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nloudspeaker = "speakers"\n'
+    configured "$workdir/out.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\noutput = "speakers"\n'
     start_kiosk out --no-attract --config "$workdir/out.toml" --trace "$workdir/out.csv" --for 28
     within 30 grep -q 'supervisor: microphone: ' "$workdir/out.err" || true
     within 30 grep -q 'supervisor: loudspeaker: ' "$workdir/out.err" || true

@@ -219,7 +219,7 @@ later() {
 # ---- setup: three breaths at two capsules, with doctor --blow --------------------------------------------------------
 doctor_blow() {
     local code=0 doctor pair breaths_found level
-    printf '[audio]\nmicrophone = "pair"\nmicrophone_channel = 1\nsecond_capsule_channel = 2\n[exhibits]\nfolder = "%s"\n' \
+    printf '[audio]\nmicrophone = "pair"\nmicrophone_channel = 1\nsecond_microphone_channel = 2\n[exhibits]\nfolder = "%s"\n' \
         "$root/exhibits" >"$workdir/pair.toml"
     pair=$(pactl load-module module-remap-source source_name=pair master=air.monitor channels=2 \
         channel_map=front-left,front-right master_channel_map=aux0,aux0 remix=no)
@@ -416,7 +416,7 @@ listens_times() { [ "$(grep -c 'supervisor: microphone: ' "$workdir/$1.err")" -g
 # ---- the loudspeaker is unplugged and plugged in again: it sounds again, and the motion never stops -----------------
 speaker_replugged() {
     local i rows gaps
-    configured "$workdir/mute.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\nloudspeaker = "speakers"\n'
+    configured "$workdir/mute.toml" '[exhibits]\nshow = ["steel-fish"]\n[audio]\noutput = "speakers"\n'
     start_kiosk mute --no-attract --config "$workdir/mute.toml" --trace "$workdir/mute.csv" --for 36
     within 30 grep -q 'supervisor: loudspeaker: ' "$workdir/mute.err"
     for i in 1 2 3; do

@@ -70,7 +70,7 @@ every_screen() {
     "$soffio" doctor >"$workdir/doctor.out" 2>&1 || true
     wanted=$((wanted - $(grep -cE '(Korean|Hebrew|Urdu): none found' "$workdir/doctor.out" || true)))
     site() {
-        configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[visit]\ncalm = true\npage_closes_s = 18\n[attract]\nidle_s = 24\n%s\n' \
+        configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[visit]\nreduced_motion = true\npage_closes_s = 18\n[attract]\nidle_s = 24\n%s\n' \
             "$works" "${1:-}"
     }
     site
@@ -137,7 +137,7 @@ staff_pages() {
     local number=0 alike=0 shut covered pressed back code=0
     # The picture keeps moving beside the panel, and only the first language's title is in its corner.
     local panel=490x720+790+0 title=400x90+0+620 another
-    configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[care]\ncleaning_s = 15\n[attract]\nenabled = false\nidle_s = 20\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
+    configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[maintenance]\ncleaning_s = 15\n[attract]\nenabled = false\nidle_s = 20\n[staff]\n%s\nstate = "%s"\nmetrics = "%s"\n' \
         "$root/exhibits" "$(echo 271828 | "$soffio" pin)" "$workdir/staff.state" "$workdir/staff.prom"
     launch_kiosk staff --config "$toml"
     within 30 picture || true

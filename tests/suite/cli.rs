@@ -360,6 +360,28 @@ fn a_configuration_is_checked_where_it_stands() {
     assert_eq!((&problems[0]["line"], &problems[1]["line"]), (&Value::from(2), &Value::from(3)), "{problems}");
 }
 
+#[cfg(feature = "kiosk")]
+#[test]
+fn a_museums_texts_are_checked_with_its_configuration_or_alone() {
+    let desk = Desk::new();
+    std::fs::create_dir_all(desk.path("texts")).expect("a writable folder");
+    desk.write("kiosk.toml", "[visit]\nbreath = false\n");
+    desk.write("texts/de.ftl", "moer = Mehr\n");
+    for argument in ["kiosk.toml", "texts", "texts/de.ftl"] {
+        let run = desk.soffio(&["check", argument]);
+        assert_eq!(run.code, Some(1), "{argument}: {}", run.err);
+        for word in ["texts/de.ftl:1:1", "unknown key `moer`", "did you mean `more`?", "E0503"] {
+            assert!(run.err.contains(word), "{argument}: {word} is missing: {}", run.err);
+        }
+    }
+    // A language that lacks texts is a warning.
+    desk.write("texts/de.ftl", "more = Noch mehr\n");
+    desk.write("texts/nl.ftl", "more = Meer\n");
+    let run = desk.soffio(&["check", "kiosk.toml"]);
+    run.done();
+    assert!(run.err.contains("W0413") && run.err.contains("2 warnings"), "{}", run.err);
+}
+
 #[test]
 fn explain_says_where_each_value_comes_from() {
     let desk = Desk::new();
@@ -579,7 +601,7 @@ fn a_pin_becomes_the_line_that_the_configuration_takes() {
     assert!(output.status.success() && line.starts_with("pin = \"$argon2id$") && !line.contains("271828"), "{line}");
     desk.write("site.toml", format!("[staff]\n{line}"));
     desk.soffio(&["check", "site.toml"]).done();
-    let config = soffio_config::Config::load(Some(&desk.path("site.toml"))).expect("good").0;
+    let config = soffio_config::Config::load(Some(&desk.path("site.toml"))).expect("good").config;
     assert!(config.staff.pin.matches("271828"));
 }
 

@@ -363,10 +363,10 @@ fn problems(text: &str) -> Vec<String> {
 #[test]
 fn what_is_wrong_with_rooms_nights_and_chords_is_located() {
     for (text, found) in [
-        ("[room]\nt60_s = [1, 1, 1]\n", "2:9 3 times for 7 octaves"),
-        ("[room]\nt60_s = [1, 1, 1, 9, 1, 1, 1]\n", "2:9 9 s at 1000 Hz is outside 0.2 to 5 s"),
-        ("[room]\nt60_s = [1, 1, 1, 2, 1, 1, 1]\n", "2:9 from 500 to 1000 Hz it changes by a factor of 2.00"),
-        ("[room]\nname = \"cave\"\n", "2:8 unknown variant"),
+        ("[reverb]\nt60_s = [1, 1, 1]\n", "2:9 3 times for 7 octaves"),
+        ("[reverb]\nt60_s = [1, 1, 1, 9, 1, 1, 1]\n", "2:9 9 s at 1000 Hz is outside 0.2 to 5 s"),
+        ("[reverb]\nt60_s = [1, 1, 1, 2, 1, 1, 1]\n", "2:9 from 500 to 1000 Hz it changes by a factor of 2.00"),
+        ("[reverb]\nname = \"cave\"\n", "2:8 unknown variant"),
         ("[night]\nfrom = \"25:00\"\n", "2:8 \"25:00\" is no time of day"),
         ("[night]\nto = \"7:00\"\n", "2:6 a night with one end"),
         ("[staff]\nchord = \"Ctrl+Alt+M\"\n", "2:9 Ctrl+Alt+M has two meanings"),
@@ -376,12 +376,12 @@ fn what_is_wrong_with_rooms_nights_and_chords_is_located() {
         assert!(all.len() == 1 && all[0].starts_with(found), "{text}: {all:?}");
     }
     let text =
-        "[room]\nt60_s = [1, 1, 1.1, 1, 1, 0.9, 0.8]\nlevel_db = -12\n[night]\nfrom = \"22:00\"\nto = \"07:30\"\n";
+        "[reverb]\nt60_s = [1, 1, 1.1, 1, 1, 0.9, 0.8]\nlevel_db = -12\n[night]\nfrom = \"22:00\"\nto = \"07:30\"\n";
     let config = Config::parse(text, Path::new("kiosk.toml")).expect("it is right");
-    let spec = config.room.spec().expect("a room");
+    let spec = config.reverb.spec().expect("a room");
     assert_eq!((spec.level_db, spec.t60[2]), (-12.0, 1.1));
-    let off = Config::parse("[room]\nname = \"off\"\n", Path::new("kiosk.toml")).expect("it is right");
-    assert_eq!(off.room.spec(), None);
+    let off = Config::parse("[reverb]\nname = \"off\"\n", Path::new("kiosk.toml")).expect("it is right");
+    assert_eq!(off.reverb.spec(), None);
 }
 
 #[test]

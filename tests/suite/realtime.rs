@@ -248,7 +248,7 @@ mod callback {
         // A block waits for its end; nothing else may wait.
         const LONGEST_S: f64 = BLOCK as f64 / RATE + 1e-6;
         let (mut recorder, mut ears) = input::open(48_000, 1, [1, 0]);
-        let mut pacer = soffio_kiosk::live::pace::Pacer::default();
+        let mut pacer = soffio_kiosk::live::step_scheduler::StepScheduler::default();
         let mut random = soffio_math::noise::Random::new(5);
         let (mut now, mut sent, mut heard_in_all) = (0.0, 0_u64, 0_u64);
         let mut heard = Heard::default();
@@ -315,7 +315,7 @@ mod server {
     fn settings() -> AudioSettings {
         AudioSettings {
             microphone: "speakers.monitor".into(),
-            loudspeaker: "speakers".into(),
+            output: "speakers".into(),
             volume_db: 0.0,
             ..AudioSettings::default()
         }

@@ -38,19 +38,19 @@ fn every_shader_file_is_part_of_a_shader() {
 #[cfg(feature = "kiosk")]
 #[test]
 fn a_kiosk_reads_changed_shaders_and_says_what_is_wrong_with_them() {
-    use soffio_kiosk::window::workbench::Workbench;
+    use soffio_kiosk::window::shader_watcher::ShaderWatcher;
     let folder = tempfile::tempdir().expect("a folder");
     for file in std::fs::read_dir("shaders").expect("the shaders").flatten() {
         std::fs::copy(file.path(), folder.path().join(file.file_name())).expect("copied");
     }
-    let mut workbench = Workbench::new(folder.path().into());
-    assert!(workbench.news(0.0).is_some_and(|news| news.is_ok()), "the first look reads them");
-    assert!(workbench.news(1.0).is_none(), "nothing has changed");
+    let mut shaders = ShaderWatcher::new(folder.path().into());
+    assert!(shaders.reload_if_changed(0.0).is_some_and(|read| read.is_ok()), "the first look reads them");
+    assert!(shaders.reload_if_changed(1.0).is_none(), "nothing has changed");
     let path = folder.path().join("dust.wgsl");
     let good = std::fs::read_to_string(&path).expect("read");
     std::fs::write(&path, "fn vertex( {").expect("written");
-    assert!(workbench.news(2.0).is_some_and(|news| news.is_err()), "a mistake is said");
-    assert!(workbench.news(2.1).is_none(), "not at every picture");
+    assert!(shaders.reload_if_changed(2.0).is_some_and(|read| read.is_err()), "a mistake is said");
+    assert!(shaders.reload_if_changed(2.1).is_none(), "not at every picture");
     std::fs::write(&path, good + "// mended\n").expect("written");
-    assert!(workbench.news(3.0).is_some_and(|news| news.is_ok()), "and what is mended is taken");
+    assert!(shaders.reload_if_changed(3.0).is_some_and(|read| read.is_ok()), "and what is mended is taken");
 }

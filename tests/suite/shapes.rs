@@ -165,7 +165,7 @@ fn an_export_names_the_shapes_that_it_leaves_at_rest() {
 #[cfg(feature = "kiosk")]
 mod drawn {
     use soffio_exhibit::View;
-    use soffio_kiosk::step::stillness::Stillness;
+    use soffio_kiosk::step::idle_detection::IdleDetector;
     use soffio_render::FrameInput;
     use soffio_simulation::{Settings, Simulation, StepInput};
 
@@ -269,14 +269,14 @@ mod drawn {
                 .unwrap_or_else(|report| panic!("{}", report.to_text()));
             let exhibit = std::sync::Arc::new(exhibit);
             let view = exhibit.view(1.0);
-            let (mut simulation, mut stillness) =
-                (Simulation::new(exhibit.clone(), Settings::default()), Stillness::default());
+            let (mut simulation, mut idle) =
+                (Simulation::new(exhibit.clone(), Settings::default()), IdleDetector::default());
             let mut seen = Vec::new();
             for step in 1..=480 {
                 simulation.step(&StepInput::default());
-                stillness.note(&exhibit, &simulation.snapshot(), &view);
+                idle.update(&exhibit, &simulation.snapshot(), &view);
                 if step % 240 == 0 {
-                    seen.push(stillness.is_still());
+                    seen.push(idle.is_still());
                 }
             }
             seen

@@ -1,4 +1,4 @@
-//! What a step of an exhibit costs: motion, wind, a hard breath, sound; and its dearest steps under all loads.
+//! Cost of a step of an exhibit: motion, wind, a hard breath, sound; and its slowest steps under all loads.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ use soffio_offline::scene::times::timed;
 use soffio_simulation::{Command, SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_sound::{SoundCommand, Synth};
 
-/// Rounds of each measurement; the best is reported, as the machine's other work can only add.
+/// Rounds of each measurement; the best is reported, as other load on the machine can only add.
 const ROUNDS: usize = 3;
 
 /// Costs of one exhibit, thread CPU time, best of three.
@@ -35,19 +35,19 @@ struct Row {
     substeps: u32,
     /// Times faster than real time in a hard breath, sound included.
     real_time_factor: f64,
-    /// ms to read and check the exhibit's files, to build what moves, and to build its instruments.
+    /// ms to read and check the exhibit's files, to build the simulation, and to build its instruments.
     load_ms: f64,
     start_ms: f64,
     instruments_ms: f64,
-    /// Step times in a hard breath, under a fast hand, and while the parts gather, where it has these; and in all of them.
+    /// Step times in a hard breath, in a fast drag and in the assembly, where the exhibit has these; and in all of them.
     hard_breath: Option<LoadReport>,
     drag: Option<LoadReport>,
     assembly: Option<LoadReport>,
     all: Option<LoadReport>,
 }
 
-/// Measures the named exhibits, or all that are shipped, for so many seconds under so many seeds. Fails where a step takes longer
-/// than `within` ms.
+/// Measures the named exhibits, or all shipped ones, for so many seconds and seeds. Fails if a step takes longer than `within`
+/// ms.
 pub fn run(names: &[String], (seconds, seeds): (f64, u64), within: Option<f64>, json: bool) -> Outcome {
     let names = if names.is_empty() { soffio_exhibit::ids() } else { names.to_vec() };
     if names.is_empty() {

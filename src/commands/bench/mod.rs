@@ -19,16 +19,17 @@ use super::failure::Outcome;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::Limits;
 
-/// Simulated seconds of an exhibit where nothing else is said.
+/// Default simulated time of an exhibit, s.
 const EXHIBIT_SECONDS: f64 = 10.0;
-/// And of its pictures, sixty a second.
+/// Default simulated time of its frames, s; sixty frames a second.
 #[cfg(feature = "kiosk")]
 const PICTURE_SECONDS: f64 = 2.0;
 
-/// Measures what a step costs: of an exhibit (still air, motion without wind, a hard breath, its sound, and the dearest steps in
-/// a hard breath, under a fast hand and while its parts gather), of a
-/// scene beside how well it keeps energy, joints and contacts, of a body as figures grow, of wind on many parts, of
-/// thousands of partials that ring, of motion by places, or of pictures.
+/// Measures the cost of simulation steps, sounds and frames.
+///
+/// By default of exhibits: still air, motion without wind, a hard breath and its sound, and the slowest steps in a hard breath,
+/// in a fast drag and in the assembly. Options measure a physics scene with its accuracy, mechanisms of growing size, wind on
+/// many patches, thousands of partials, position-based motion, or frames.
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --seeds 100 --within 4.17\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
@@ -42,35 +43,35 @@ pub struct Args {
     /// A scene, JSON of the format `soffio-scene/1` (or `isaac-bench-scene/1`); more than one may be given.
     #[arg(long, value_name = "FILE.json")]
     scene: Vec<PathBuf>,
-    /// What a body costs in chains and binary trees of 10, 100, 1,000 and 10,000.
+    /// Cost per body in chains and binary trees of 10, 100, 1,000 and 10,000 bodies.
     #[arg(long, conflicts_with = "scene")]
     linear: bool,
-    /// What the wind costs on 10,000 patches among 5,000 triangles, beside asking every triangle.
+    /// Cost of the wind on 10,000 patches among 5,000 triangles, compared with testing every triangle.
     #[arg(long, conflicts_with_all = ["scene", "linear"])]
     wind: bool,
-    /// What partials cost, at each level of instructions, and the heaviest scene: 48 bodies of 6,328 partials, and slides of 235.
+    /// Cost of partials at each instruction set, and of the heaviest scene: 48 bodies with 6,328 partials, and slides with 235.
     #[arg(long, conflicts_with_all = ["scene", "linear", "wind"])]
     sound: bool,
-    /// What motion by places costs: a mobile of 127 joints dragged by hand, and exhibits beside the laws.
+    /// Cost of position-based motion: a dragged mobile of 127 joints, and exhibits compared with dynamics.
     #[arg(long, conflicts_with_all = ["scene", "linear", "wind", "sound"])]
     procedural: bool,
-    /// What a picture of this size costs in a hard breath: processor time of the whole program, a software driver's too.
+    /// Cost of a frame of this size in a hard breath: processor time of the whole program, including a software driver.
     #[cfg(feature = "kiosk")]
     #[arg(long, value_name = "WxH", value_parser = parse_size, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
     picture: Option<(u32, u32)>,
-    /// Step of a scene, s; default are those that it names.
+    /// Time step of a scene, s; default are those in the scene.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
     dt: Option<f64>,
-    /// How time is advanced in a scene.
+    /// Integrator of a scene.
     #[arg(long, value_enum, default_value_t = IntegratorArg::Auto)]
     integrator: IntegratorArg,
-    /// Which linear solver a scene uses.
+    /// Linear solver of a scene.
     #[arg(long, value_enum, default_value_t = SolverArg::Sparse)]
     solver: SolverArg,
     /// Assemblies of an exhibit, each from parts scattered by a seed of its own.
     #[arg(long, value_name = "N", default_value_t = 5, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
     seeds: u64,
-    /// Milliseconds that no step of an exhibit may take longer than; the command fails where one does.
+    /// Longest allowed step of an exhibit, ms; the command fails if one takes longer.
     #[arg(long, value_name = "MS", conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
     within: Option<f64>,
     /// Simulated seconds: of each measurement of an exhibit (10 if not given; 2 of pictures), at most of a scene.

@@ -1,5 +1,5 @@
-//! What a picture costs: processor time of the whole program, a software driver's threads included, over pictures of an
-//! exhibit in a hard breath, each of them finished before the next begins.
+//! Cost of a frame: processor time of the whole program, including the threads of a software driver. The frames show an exhibit
+//! in a hard breath; each is finished before the next begins.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -17,12 +17,12 @@ use soffio_simulation::{Command, STEPS_PER_SECOND, Settings, Simulation, Snapsho
 const HARD: f64 = 17.0;
 /// Pictures a second.
 const FPS: u64 = 60;
-/// Pictures before any is counted: pipelines are compiled with the first of their kind.
+/// Frames before the measurement: the first ones compile the pipelines.
 const WARM: usize = 10;
-/// As a window has them.
+/// Texture format of a window.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Bgra8UnormSrgb;
 
-/// Costs of one exhibit's pictures.
+/// Cost of an exhibit's frames.
 #[derive(Serialize)]
 struct Row {
     exhibit: String,

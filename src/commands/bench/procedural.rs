@@ -1,5 +1,5 @@
-//! What motion by places costs: a mobile of 127 joints that is dragged by one plate, beside a published figure, and shipped
-//! exhibits moved by places beside the laws, step by step in turns.
+//! Cost of position-based motion: a mobile of 127 joints that is dragged by one plate, compared with a published value, and
+//! shipped exhibits compared with dynamics, step by step in turns.
 
 use std::hint::black_box;
 use std::sync::Arc;
@@ -26,7 +26,7 @@ const HIGH: f64 = 0.08;
 const RATE: f64 = 2.0;
 /// A frame is a step of the simulation, s.
 const DT: f64 = 1.0 / STEPS_PER_SECOND as f64;
-/// Each frame's least time of the rounds counts, as the machine's other work can only add.
+/// Each frame's least time of the rounds counts, as other load on the machine can only add.
 const ROUNDS: usize = 5;
 /// A mobile of 127 constraints by position-based rigid body dynamics, µs a step (C. Deul, P. Charrier, J. Bender,
 /// Computer Animation and Virtual Worlds 2014).
@@ -41,7 +41,7 @@ struct Drag {
     /// Frame, s.
     dt: f64,
     method: &'static str,
-    /// µs a frame, thread CPU time: the middle one, and the dearest.
+    /// Time of a frame, µs of thread CPU time: median and maximum.
     median_us: f64,
     most_us: f64,
     /// Passes of a frame: mean, and most.
@@ -50,23 +50,24 @@ struct Drag {
     /// Worst joint and worst miss of any frame, m.
     residual_m: f64,
     missed_m: f64,
-    /// The published figure over the middle frame.
+    /// The published time over the median.
     ratio: f64,
 }
 
-/// An exhibit moved by the laws and by places.
+/// An exhibit with dynamics and with position-based motion.
 #[derive(Serialize)]
 struct Beside {
     exhibit: String,
     bodies: usize,
-    /// µs a step, middle one.
+    /// Median time of a step, µs.
     dynamic_us: f64,
     position_based_us: f64,
     procedural_us: f64,
-    /// Over the laws.
+    /// Ratios to dynamics.
     position_based_ratio: f64,
     procedural_ratio: f64,
-    /// The first of them in a hard breath, wind included, as the kiosk's governor sees it, and whether it is cheap enough for it.
+    /// The first ratio in a hard breath, including the wind, as the kiosk's governor measures it; and whether the governor may
+    /// choose position-based motion.
     breath_ratio: f64,
     governor_may_choose: bool,
 }
@@ -101,7 +102,7 @@ pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
             println!("{}", serde_json::to_string(&row).map_err(Failure::input)?);
         } else {
             println!(
-                "{:<20} {:>3} bodies: laws {:>6.1} us a step, position-based {:>6.1} us (x {:.2}), procedural {:>6.1} us (x {:.2}); \
+                "{:<20} {:>3} bodies: dynamics {:>6.1} us a step, position-based {:>6.1} us (x {:.2}), procedural {:>6.1} us (x {:.2}); \
                  in a hard breath x {:.2}{}",
                 row.exhibit,
                 row.bodies,
@@ -125,7 +126,7 @@ fn name(method: Method) -> &'static str {
     }
 }
 
-/// Drags the last plate of the mobile, which hung at rest.
+/// Drags the last plate of the mobile, which starts at rest.
 fn drag(seconds: f64, method: Method) -> Drag {
     let mut scene = make::mobile(JOINTS, SEED);
     for body in &mut scene.bodies {

@@ -1,11 +1,11 @@
-//! Scenes, and what a body costs as figures grow: rows of JSON, or a table.
+//! Physics scenes, and the cost per body in growing mechanisms: rows of JSON, or a table.
 
 use std::path::PathBuf;
 
 use crate::commands::failure::{Failure, Outcome};
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::linear::{self, SIZES};
-use soffio_offline::scene::{BenchRecord, Limits, PhysicsScene, run};
+use soffio_offline::scene::{BenchRecord, FORMAT, Limits, OLD_FORMAT, PhysicsScene, run};
 
 /// Measures each scene at `dt`, or at the steps that it names. All files are read before the first is run.
 pub fn run(
@@ -18,6 +18,10 @@ pub fn run(
 ) -> Outcome {
     let scenes: Vec<_> =
         files.iter().map(|file| PhysicsScene::read(file)).collect::<Result<_, _>>().map_err(Failure::input)?;
+    for (file, scene) in files.iter().zip(&scenes).filter(|(_, scene)| scene.format == OLD_FORMAT) {
+        let file = file.display();
+        eprintln!("{file}: `{}` is now called `{FORMAT}`; `soffio check --fix {file}` rewrites the file", scene.format);
+    }
     if !json {
         println!(
             "{:<22} {:>5} {:>9} {:>11} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>7}",

@@ -1,5 +1,5 @@
-//! What partials cost: one bank at each level of instructions, beside what the processor's multiply-adds allow, and the
-//! heaviest scene through the whole synth.
+//! Cost of partials: one bank at each instruction set, compared with the processor's limit of multiply-adds, and the heaviest
+//! scene through the whole synthesizer.
 
 use std::hint::black_box;
 
@@ -16,7 +16,7 @@ use soffio_sound::{
     InstrumentSpec, Preset, Reverb, ReverbSpec, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, Synth, WindSound,
 };
 
-/// Rounds of each measurement; the best is reported, as the machine's other work can only add.
+/// Rounds of each measurement; the best is reported, as other load on the machine can only add.
 const ROUNDS: usize = 5;
 /// Partials of the banks.
 const COUNTS: [usize; 3] = [64, 600, 6328];
@@ -34,11 +34,11 @@ const SCENE: [(&str, usize, usize, (f64, f64)); 5] = [
     ("bell", 4, 10, (250.0, 8_000.0)),
 ];
 
-/// What sounds all the time in it: the wind in the room and on wires, surfaces that slide.
+/// Continuous sounds of the scene: ambient wind, wind on wires, sliding surfaces.
 const SCENE_AIR: [&str; 5] = ["wind-room", "wind-wire", "wind-wire", "wind-wire", "wind-wire"];
 const SCENE_SCRAPES: [&str; 3] = ["scrape-wood", "scrape-metal", "scrape-stone"];
-/// Wind and slides are told anew so often a second, as in the simulation.
-const SCENE_TOLD: u64 = 240;
+/// Updates of wind and slides a second, as in the simulation.
+const SCENE_UPDATES: u64 = 240;
 
 /// One bank at one level.
 #[derive(Serialize)]
@@ -57,15 +57,15 @@ struct Row {
 #[derive(Serialize)]
 struct Scene {
     bodies: usize,
-    /// Partials that ring at the end: all of them.
+    /// Sounding partials at the end: all of them.
     partials: usize,
-    /// % of one core, hits, wind, scraping, room and limiter included.
+    /// % of one core, including hits, wind, scraping, reverberation and limiter.
     core_percent: f64,
     /// The longest block's own time, % of what it lasts.
     worst_block_percent: f64,
 }
 
-/// The room.
+/// Cost of the reverberation.
 #[derive(Serialize)]
 struct RoomCost {
     /// % of one core.
@@ -92,25 +92,25 @@ pub fn run(json: bool) -> Outcome {
             }
         }
     }
-    let room_percent = (0..ROUNDS).map(|_| room()).fold(f64::INFINITY, f64::min);
+    let room_percent = (0..ROUNDS).map(|_| reverb_cost()).fold(f64::INFINITY, f64::min);
     if json {
         println!("{}", serde_json::to_string(&RoomCost { room_percent }).map_err(Failure::input)?);
     } else {
-        println!("room: {room_percent:.2} % of a core");
+        println!("reverberation: {room_percent:.2} % of a core");
     }
     let scene = scene()?;
     if json {
         println!("{}", serde_json::to_string(&scene).map_err(Failure::input)?);
     } else {
         println!(
-            "heaviest scene: {} bodies, {} partials, wind, wires and scraping in a room: {:.2} % of a core, worst block {:.1} % of its time",
+            "heaviest scene: {} bodies, {} partials, wind, wires and scraping with reverberation: {:.2} % of a core, worst block {:.1} % of its time",
             scene.bodies, scene.partials, scene.core_percent, scene.worst_block_percent
         );
     }
     Ok(())
 }
 
-/// Every set of instructions that this processor has, the best first.
+/// Instruction sets of this processor, the best first.
 fn levels() -> Vec<Level> {
     let best = Level::new();
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
@@ -177,16 +177,16 @@ fn preset(partials: &[Partial]) -> Result<Preset, Failure> {
     Preset::parse("heavy", &(text + "]\n")).map_err(Failure::input)
 }
 
-/// The gallery, busy, % of one core.
-fn room() -> f64 {
+/// Cost of the gallery reverberation, % of one core.
+fn reverb_cost() -> f64 {
     let rate = f64::from(SAMPLE_RATE);
-    let Some(mut room) = Reverb::new(&ReverbSpec::GALLERY, rate) else { return f64::NAN };
+    let Some(mut reverb) = Reverb::new(&ReverbSpec::GALLERY, rate) else { return f64::NAN };
     let mut random = Random::new(1);
     let noise: Vec<f32> = (0..SAMPLE_RATE).map(|_| random.signed() as f32).collect();
     let start = ThreadTime::now();
     let mut frames: Vec<[f32; 2]> = noise.iter().map(|x| [*x, -*x]).collect();
     for step in frames.chunks_mut(SAMPLES_PER_STEP as usize) {
-        room.answer(black_box(step));
+        reverb.answer(black_box(step));
     }
     100.0 * start.elapsed().as_secs_f64() * rate / noise.len() as f64
 }
@@ -257,7 +257,7 @@ fn scene() -> Result<Scene, Failure> {
                 if sample % every == 0 {
                     synth.command(strike(sample, (sample / every) as usize * 7 % bodies));
                 }
-                if sample % (u64::from(SAMPLE_RATE) / SCENE_TOLD) == 0 {
+                if sample % (u64::from(SAMPLE_RATE) / SCENE_UPDATES) == 0 {
                     going_on(sample, slides.clone()).for_each(|command| synth.command(command));
                 }
             }

@@ -1,5 +1,5 @@
-//! What the wind of one step costs: a crowd of plates and balls in one breath, every patch of which asks whether it sees
-//! the lips, with the hierarchies refitted as everything moves; and what the same rays cost against every triangle.
+//! Cost of the wind of one step on a crowd of bodies in one breath. Every patch tests whether the lips are visible from it, and
+//! the hierarchies are refitted as everything moves. The same rays are also tested against every triangle.
 
 use std::hint::black_box;
 
@@ -19,7 +19,7 @@ use soffio_wind::{Shelter, Surface, SurfaceShape};
 const PARTS: usize = 50;
 const PATCHES: usize = 200;
 const RINGS: usize = 5;
-/// Steps of a round; the best round counts, as the machine's other work can only add.
+/// Steps of a round; the best round counts, as other load on the machine can only add.
 const STEPS: usize = 24;
 const ROUNDS: usize = 5;
 const SEED: u64 = 1;

@@ -1,27 +1,27 @@
-//! What `soffio doctor` finds.
+//! Findings of `soffio doctor`.
 
-/// How well something is.
+/// Health of a checked item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Health {
-    /// As it should be.
+    /// Good.
     Ok,
     /// The kiosk runs, but not as well as it could.
     Warn,
-    /// The kiosk lacks something that it is made for.
+    /// The kiosk lacks something essential.
     Bad,
 }
 
-/// One thing looked at.
+/// Result for one checked item.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct Finding {
-    /// What was looked at.
+    /// The item.
     pub what: String,
-    /// How well it is.
+    /// Its health.
     pub health: Health,
-    /// What was found.
+    /// Description of its state.
     pub found: String,
-    /// What to do; empty where there is nothing to do.
+    /// Remedy; empty where none is needed.
     pub remedy: String,
     /// A device or driver (exit code 3) rather than a file (exit code 1).
     pub device: bool,

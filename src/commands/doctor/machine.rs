@@ -8,24 +8,24 @@ use indicatif::{ProgressBar, ProgressStyle};
 use soffio_config::{Config, remedies};
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Reason};
 use soffio_devices::audio::{AudioIo, DeviceState, Heard};
-use soffio_kiosk::fleet::kept;
+use soffio_kiosk::fleet::persisted;
 use soffio_kiosk::pages::fonts::{self, Script};
 use soffio_kiosk::pages::languages::languages_without_glyphs;
 use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
 use soffio_kiosk::pages::ui_strings::{SHIPPED, Translations};
-use soffio_kiosk::venue::care::CLEAN_NIGHTS;
-use soffio_kiosk::venue::chirping::{Act, Course};
+use soffio_kiosk::venue::self_test::REFERENCE_RUNS;
+use soffio_kiosk::venue::self_test_run::{SelfTestAction, SelfTestRun};
 use soffio_kiosk::window;
 use soffio_render::Gpu;
 use soffio_sound::{BANDS, Synth};
 
-/// How long the room is listened to.
+/// Length of the recording of the room.
 const LISTEN: Duration = Duration::from_millis(1100);
-/// Breaths that are asked for: a gain that changes by itself shows in two of three.
+/// Requested breaths: automatic gain control shows in two of three.
 const BREATHS: usize = 3;
-/// How long they are waited for.
+/// Longest wait for the breaths.
 const PATIENCE: Duration = Duration::from_secs(20);
-/// Between two looks at the microphone, and how long the room is heard after the last breath.
+/// Time between two readings of the microphone, and length of the recording after the last breath.
 const LOOK: Duration = Duration::from_millis(20);
 const AFTER: Duration = Duration::from_millis(800);
 /// Range of the meter, dB below full scale.
@@ -33,11 +33,11 @@ const METER: u64 = 80;
 /// Longest wait for the devices to open.
 const OPENING: Duration = Duration::from_secs(3);
 
-/// All that can be found out without a visitor, or with the help of one who blows.
-pub fn look(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
+/// Checks of the machine; with `blow` they need somebody who blows, with `audio_self_test` a sweep is played.
+pub fn look(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
     let mut findings = vec![display(), graphics(), reading(config)];
     findings.extend(Script::ALL.map(writing));
-    findings.extend(sound(config, blow, chirp));
+    findings.extend(sound(config, blow, self_test));
     findings
 }
 
@@ -89,13 +89,13 @@ fn writing(script: Script) -> Finding {
     }
 }
 
-/// Whether labels can be read aloud, in each language that the kiosk speaks.
+/// Checks reading aloud in each language of the kiosk.
 fn reading(config: &Config) -> Finding {
     let what = "reading aloud";
-    if config.visit.reads_aloud.is_empty() {
-        return Finding::new(what, Health::Ok, "visit.reads_aloud is empty: nothing is read", "");
+    if config.visit.read_aloud.is_empty() {
+        return Finding::new(what, Health::Ok, "visit.read_aloud is empty: nothing is read", "");
     }
-    match SpeechSynthesizer::detect(&config.visit.reads_aloud) {
+    match SpeechSynthesizer::detect(&config.visit.read_aloud) {
         Ok(speaker) => {
             let can = |can: bool| {
                 let codes = SHIPPED.iter().map(|(code, _)| *code).filter(|code| speaker.can_speak(code) == can);
@@ -103,17 +103,17 @@ fn reading(config: &Config) -> Finding {
             };
             let (reads, not) = (can(true), can(false));
             let not = if not.is_empty() { not } else { format!("; not {not}, which has no button to press") };
-            Finding::new(what, Health::Ok, format!("{}: {reads}{not}", config.visit.reads_aloud), "")
+            Finding::new(what, Health::Ok, format!("{}: {reads}{not}", config.visit.read_aloud), "")
         }
         Err(error) => {
-            let remedy = "install espeak-ng, or name another program in visit.reads_aloud; until then there is no \
+            let remedy = "install espeak-ng, or name another program in visit.read_aloud; until then there is no \
                           button \"Read aloud\"";
             Finding::new(what, Health::Warn, error, remedy)
         }
     }
 }
 
-fn sound(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
+fn sound(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
     let mut audio = AudioIo::start(&config.audio, Synth::silent);
     let mut heard = Heard::default();
     let mut rate = None;
@@ -143,12 +143,12 @@ fn sound(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
         device("microphone", &status.input, "visitors press and hold to blow"),
     ];
     if let Some(rate) = rate {
-        if config.audio.second_capsule_channel > 0 || status.capsules > 1 {
-            findings.push(second_capsule(status.capsules).of_device());
+        if config.audio.second_microphone_channel > 0 || status.capsules > 1 {
+            findings.push(second_microphone(status.capsules).of_device());
         }
         findings.push(judge_room(&heard.samples, rate).of_device());
-        if chirp {
-            findings.push(own_chirp(config, &mut audio).of_device());
+        if self_test {
+            findings.push(audio_self_test(config, &mut audio).of_device());
         }
         if blow {
             let sensitivity_db = config.breath.sensitivity_db;
@@ -160,54 +160,59 @@ fn sound(config: &Config, blow: bool, chirp: bool) -> Vec<Finding> {
     findings
 }
 
-/// Has the loudspeaker chirp to the microphone, as it does at night, and compares with what the kiosk has kept of its nights.
-fn own_chirp(config: &Config, audio: &mut AudioIo) -> Finding {
-    let what = "chirp";
-    let (began, mut course, mut heard) = (Instant::now(), Course::default(), Heard::default());
-    course.begin(0.0);
+/// Runs the audio self-test, and compares the result with the stored reference.
+fn audio_self_test(config: &Config, audio: &mut AudioIo) -> Finding {
+    let what = "audio self-test";
+    let (began, mut run, mut recorded) = (Instant::now(), SelfTestRun::default(), Heard::default());
+    run.begin(0.0);
     let outcome = loop {
         std::thread::sleep(LOOK);
-        heard.clear();
-        let rate = audio.read_microphone(&mut heard);
-        match course.tend(began.elapsed().as_secs_f64(), &audio.status(), (&heard.samples, rate)) {
-            Some(Act::Say(words)) => audio.say(&words),
-            Some(Act::Done(outcome)) => break outcome,
+        recorded.clear();
+        let rate = audio.read_microphone(&mut recorded);
+        match run.update(began.elapsed().as_secs_f64(), &audio.status(), (&recorded.samples, rate)) {
+            Some(SelfTestAction::PlaySweep(sweep)) => audio.say(&sweep),
+            Some(SelfTestAction::Done(outcome)) => break outcome,
             None => {}
         }
     };
-    let mut care = kept::folder(config).and_then(|folder| kept::look(&folder)).unwrap_or_default().care;
-    if let Ok(arrived) = &outcome
-        && care.clean_db.len() < CLEAN_NIGHTS
+    let mut history =
+        persisted::folder(config).and_then(|folder| persisted::read(&folder)).unwrap_or_default().self_test;
+    if let Ok(response) = &outcome
+        && history.clean_db.len() < REFERENCE_RUNS
     {
-        let octaves = BANDS.iter().zip(arrived.levels_db).zip(arrived.clear);
+        let octaves = BANDS.iter().zip(response.levels_db).zip(response.clear);
         let said: Vec<String> = octaves
             .map(|((hz, db), clear)| format!("{hz:.0} Hz {}{db:.0} dB", if clear { "" } else { "below " }))
             .collect();
-        let (health, remedy) = match arrived.clear.iter().filter(|clear| **clear).count() {
-            0 => (Health::Bad, "nothing of it arrives: look at the loudspeaker, its amplifier and the microphone"),
-            1..4 => (Health::Warn, "most of it is lost in noise: turn the loudspeaker up, or look what is in the way"),
+        let (health, remedy) = match response.clear.iter().filter(|clear| **clear).count() {
+            0 => (Health::Bad, "the sweep does not arrive: check the loudspeaker, its amplifier and the microphone"),
+            1..4 => (
+                Health::Warn,
+                "most of the sweep is lost in noise: turn the loudspeaker up, or clear the path to the microphone",
+            ),
             _ => (Health::Ok, ""),
         };
-        return Finding::new(what, health, format!("{}; no nights to compare with yet", said.join(", ")), remedy);
+        return Finding::new(what, health, format!("{}; no reference to compare with yet", said.join(", ")), remedy);
     }
-    match care.note(&outcome, String::new()) {
+    match history.record(&outcome, String::new()) {
         verdict if verdict.is_bad() => {
-            let remedy = "mend it, and chirp again; after a change that was meant so, `Listen anew` on the staff panel";
+            let remedy =
+                "correct it, and test again; after an intended change measure a new reference on the staff panel";
             Finding::new(what, Health::Bad, verdict.to_string(), remedy)
         }
         verdict => Finding::new(what, Health::Ok, verdict.to_string(), ""),
     }
 }
 
-fn second_capsule(capsules: usize) -> Finding {
-    let what = "second capsule";
-    match capsules {
-        2 => Finding::new(what, Health::Ok, "it listens", ""),
-        _ => Finding::new(what, Health::Warn, "the microphone has no such channel", remedies::NO_SECOND_CAPSULE),
+fn second_microphone(microphones: usize) -> Finding {
+    let what = "second microphone";
+    match microphones {
+        2 => Finding::new(what, Health::Ok, "it works", ""),
+        _ => Finding::new(what, Health::Warn, "the microphone has no such channel", remedies::NO_SECOND_MICROPHONE),
     }
 }
 
-/// Asks for breaths and hears them, with a meter for whoever blows.
+/// Asks for breaths and measures them, with a meter on the terminal.
 fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate> {
     eprintln!(
         "Blow at the microphone from where visitors stand, as they would: {BREATHS} times, a second or two each, with \

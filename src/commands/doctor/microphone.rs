@@ -1,11 +1,11 @@
-//! What is heard at a microphone, as findings: the room in silence, and a breath.
+//! Findings about a microphone: its level without a breath, and a breath.
 
 use super::finding::{Finding, Health};
 use soffio_config::remedies::{self, NORMAL_M_S};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
 use soffio_math::decibels;
 
-/// What a second of sound of the room says about a microphone.
+/// Judges a microphone by a second of sound without a breath.
 pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     /// Quieter than any room through any microphone, dB of full scale: it is switched off.
     const MUTED_DBFS: f64 = -100.0;
@@ -41,7 +41,7 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     };
     if heard.len() < sample_rate as usize / 2 {
         let found = format!("{} samples in a second that has {sample_rate}", samples.len());
-        return Finding::new(WHAT, Health::Bad, found, "it hardly delivers: try another socket or another device");
+        return Finding::new(WHAT, Health::Bad, found, "too few samples arrive: try another socket or another device");
     }
     if rms < MUTED_DBFS {
         return Finding::new(WHAT, Health::Bad, found, remedies::MUTED);
@@ -59,16 +59,17 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     Finding::new(WHAT, Health::Ok, found, "")
 }
 
-/// Speeds within this factor of it need no other sensitivity: breaths differ by as much.
+/// Factor within which a speed is normal: breaths differ by as much.
 const ALIKE: f64 = 1.35;
 
-/// Where nothing was heard, one step in so many at full scale says why.
+/// Without a detected breath, more than one step in so many at full scale means clipping.
 const CLIPPED_PART: usize = 10;
-/// What to do about an input at full scale.
-const RAILED: &str = "the input is at its end and cannot tell strong from gentle: turn the input gain down, then again";
+/// Remedy for an input at full scale.
+const RAILED: &str =
+    "the input is at full scale and cannot distinguish strong from gentle: turn the input gain down, then repeat";
 
-/// What normal breaths from where visitors stand say about microphone and settings. `steps` are the detector's words
-/// meanwhile, `sensitivity_db` the setting they were heard with.
+/// Judges microphone and settings by normal breaths from where visitors stand. `steps` are the detector's estimates, and
+/// `sensitivity_db` is the setting that they were measured with.
 pub fn judge_blow(steps: &[BlowEstimate], sensitivity_db: f64) -> Finding {
     const WHAT: &str = "a breath";
     let blown = || steps.iter().filter(|step| step.reason == Reason::Blow);

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
-use soffio_config::{Config, OTHERS};
+use soffio_config::{Config, LoadedConfig, OTHERS};
 use soffio_exhibit as exhibit;
 
 mod finding;
@@ -14,19 +14,19 @@ mod microphone;
 pub use finding::{Finding, Health};
 pub use microphone::{judge_blow, judge_room};
 
-/// Says what to mend on this machine: screen, graphics, microphone, loudspeaker, fonts, files.
+/// Checks this machine and names remedies: screen, graphics, microphone, loudspeaker, fonts, files.
 #[derive(clap::Args, Debug, Default)]
-#[command(after_help = "Example:\n  soffio doctor --json\n  soffio doctor --chirp --blow")]
+#[command(after_help = "Example:\n  soffio doctor --json\n  soffio doctor --audio-self-test --blow")]
 pub struct Args {
     /// The site's configuration [default: kiosk-config/kiosk.toml here or above, else built in]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
-    /// Listen to a breath too, from where visitors stand, and propose the sensitivity for it
+    /// Measure a breath too, from where visitors stand, and propose the sensitivity
     #[arg(long)]
     blow: bool,
-    /// Let the loudspeaker chirp to the microphone, and say how the foam, and both of them, are
+    /// Play a sweep through the loudspeaker, record it with the microphone, and report how both and the foam are
     #[arg(long)]
-    chirp: bool,
+    audio_self_test: bool,
     /// One JSON array on stdout instead of text
     #[arg(long)]
     json: bool,
@@ -36,15 +36,24 @@ pub struct Args {
 pub fn run(args: Args) -> Outcome {
     let loaded = Config::load(args.config.as_deref());
     let mut findings = vec![match &loaded {
-        Ok((_, Some(file))) => Finding::new("configuration", Health::Ok, file.display().to_string(), ""),
-        Ok((_, None)) => Finding::new("configuration", Health::Ok, "built in; no file found", ""),
-        Err(error) => Finding::new("configuration", Health::Bad, error.to_string(), "mend the lines named here"),
+        Ok(LoadedConfig { file: None, .. }) => Finding::new("configuration", Health::Ok, "built in; no file found", ""),
+        Ok(loaded @ LoadedConfig { file: Some(file), .. }) => {
+            let warnings: Vec<String> = loaded.warning_texts().collect();
+            match warnings.is_empty() {
+                true => Finding::new("configuration", Health::Ok, file.display().to_string(), ""),
+                false => {
+                    let remedy = format!("`soffio check --fix {}` rewrites the file", file.display());
+                    Finding::new("configuration", Health::Warn, warnings.join("\n"), remedy)
+                }
+            }
+        }
+        Err(error) => Finding::new("configuration", Health::Bad, error.to_string(), "correct the lines named here"),
     }];
-    let config = loaded.map(|(config, _)| config).unwrap_or_default();
+    let config = loaded.map(|loaded| loaded.config).unwrap_or_default();
     findings.push(pin(&config));
     findings.extend(exhibits(&config));
     #[cfg(feature = "kiosk")]
-    findings.extend(machine::look(&config, args.blow, args.chirp));
+    findings.extend(machine::look(&config, args.blow, args.audio_self_test));
     #[cfg(not(feature = "kiosk"))]
     findings.push(
         Finding::new("devices", Health::Bad, "this build has no window and no sound", "build with the feature `kiosk`")

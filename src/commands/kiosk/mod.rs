@@ -12,24 +12,24 @@ use tracing_subscriber::util::SubscriberInitExt;
 use super::arguments::SolverArg;
 use super::failure::{Failure, Outcome};
 use super::setup;
-use soffio_config::{Config, FILE};
+use soffio_config::{Config, FILE, LoadedConfig};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::fleet::Fleet;
 use soffio_kiosk::live::{Options, Report};
 use soffio_kiosk::staff::log::Log;
-use soffio_kiosk::venue::shelf::{self, Places};
+use soffio_kiosk::venue::catalog::{self, ExhibitSource};
 use soffio_kiosk::venue::site::{Overrides, Site};
-use soffio_kiosk::window::{self, Ended, Ground, Missing};
+use soffio_kiosk::window::{self, Ended, Launch, Missing};
 use soffio_offline::feed::WavFeed;
 use soffio_offline::{demo, wav};
 use soffio_simulation::{STEPS_PER_SECOND, Settings};
 
 mod supervised;
 
-/// Where a run without a window leaves its files.
+/// Folder for the files of a run without a window.
 const OUT: &str = "out";
 
-/// Seed of a run that names none: every day in the gallery begins alike.
+/// Default seed: every day in the gallery begins alike.
 const DEFAULT_SEED: u64 = 1;
 
 /// Runs the live kiosk.
@@ -54,25 +54,25 @@ pub struct Args {
     /// Never play the attract script
     #[arg(long)]
     no_attract: bool,
-    /// Seed of all that is random [default: 1]
+    /// Seed of all random numbers [default: 1]
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// What moves the exhibits: the laws, places joint by joint, all joints at once, or their own choice
+    /// Solver of the exhibits' motion
     #[arg(long, value_enum, default_value_t)]
     solver: SolverArg,
     /// Writes the poses of all moving bodies, 60 rows a second
     #[arg(long, value_name = "CSV")]
     trace: Option<PathBuf>,
-    /// Writes what the simulation is told, for `soffio replay`; never a sound
+    /// Writes all inputs of the simulation, for `soffio replay`; never a sound
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
-    /// Safe mode: one built-in work, no controllers, no orders from afar; by itself after three deaths in the first minute
+    /// Safe mode: one built-in exhibit, no controllers, no remote commands; automatic after three crashes of the start
     #[arg(long)]
     safe: bool,
-    /// Draws with the shaders in this folder, and reads them anew when one changes
+    /// Draws with the shaders in this folder, and reloads them when one changes
     #[arg(long, value_name = "FOLDER", hide = true)]
     shaders: Option<PathBuf>,
-    /// Destroys the graphics device after so much time, to rehearse its loss
+    /// Destroys the graphics device after so much time, to test its loss
     #[arg(long, value_name = "SECONDS", hide = true)]
     lose_device_at: Option<f64>,
 }
@@ -81,13 +81,17 @@ pub struct Args {
 pub fn run(args: Args) -> Outcome {
     let log = Log::default();
     log_to_stderr(&log);
-    let (config, file, problem) = match Config::load(args.config.as_deref()) {
-        Ok((config, file)) => (config, file, None),
+    let (loaded, problem) = match Config::load(args.config.as_deref()) {
+        Ok(loaded) => (loaded, None),
         Err(error) => {
             let config = supervised::config_in_need(&error).ok_or_else(|| Failure::input(&error))?;
-            (config, Some(error.file.clone()), Some(error.to_string()))
+            let loaded = LoadedConfig { config, file: Some(error.file.clone()), warnings: Vec::new() };
+            (loaded, Some(error.to_string()))
         }
     };
+    let warnings: Vec<String> = loaded.warning_texts().collect();
+    warnings.iter().for_each(|warning| tracing::warn!("{warning}"));
+    let LoadedConfig { config, file, .. } = loaded;
     match &file {
         Some(file) => tracing::info!("configuration: {}", file.display()),
         None => tracing::info!("configuration: built in"),
@@ -95,15 +99,15 @@ pub fn run(args: Args) -> Outcome {
     let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract, safe: false };
     let begun = supervised::begin(&overrides.apply(config.clone()), args.safe);
     if let Some(file) = file.as_ref().filter(|_| problem.is_none()) {
-        begun.keeper.keep_good(file);
+        begun.store.save_good_config(file);
     }
     let overrides = Overrides { safe: begun.safe, ..overrides };
     let config = overrides.apply(config);
 
     let built_in = if begun.safe { supervised::built_in() } else { None };
     let (exhibit, places) = match &built_in {
-        Some(built_in) => (built_in.exhibit.clone(), Places::One(built_in.exhibit.folder.clone())),
-        None => choose(&config, args.exhibit.as_deref(), begun.goes_on_with())?,
+        Some(built_in) => (built_in.exhibit.clone(), ExhibitSource::One(built_in.exhibit.folder.clone())),
+        None => choose(&config, args.exhibit.as_deref(), begun.restored_exhibit())?,
     };
     let recording = args.breath.map(wav::read).transpose().map_err(Failure::input)?;
     let site = Site::new(&config, args.seed.unwrap_or(DEFAULT_SEED));
@@ -121,31 +125,31 @@ pub fn run(args: Args) -> Outcome {
     let stop = Arc::new(AtomicBool::new(false));
     setup::stop_on_ctrl_c(&stop);
 
-    let fleet = Fleet::start(begun.keeper, begun.kept, begun.safe, &config);
+    let fleet = Fleet::start(begun.store, begun.persisted, begun.safe, &config);
     let (lose_device_at, shaders) = (args.lose_device_at, args.shaders.clone());
-    let ground = Ground { config, overrides, file, problem, log, fleet, lose_device_at, shaders };
-    match window::run(ground, &places, options, &stop) {
+    let launch = Launch { config, overrides, file, problem, warnings, log, fleet, lose_device_at, shaders };
+    match window::run(launch, &places, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
         Ok(Ended::Failed(message)) => Err(Failure::device(message)),
-        // Whoever started it again waits for the display to come back, not for a demonstration.
+        // After a restart the supervisor waits for the display; it needs no demonstration.
         Err(Missing::Display(why) | Missing::Graphics(why)) if supervised::is_restart() => Err(Failure::device(why)),
         Err(missing) => headless(&missing, &exhibit, settings, &stop),
     }
 }
 
-/// What is shown first, and where the others are: one exhibit alone, or the first of those configured that loads, before
-/// them the one that a run that died had on show. What does not load is said, and the next one tried.
-fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Arc<Exhibit>, Places), Failure> {
+/// The first exhibit, and the source of the others: one exhibit alone, or the first configured one that loads. After a crash
+/// the exhibit that was on show comes first. Exhibits that do not load are reported and skipped.
+fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Arc<Exhibit>, ExhibitSource), Failure> {
     if let Some(only) = only {
         let exhibit = setup::open(only)?;
-        let places = Places::One(exhibit.folder.clone());
+        let places = ExhibitSource::One(exhibit.folder.clone());
         return Ok((exhibit, places));
     }
-    let places = Places::All { folder: config.exhibits.folder.clone(), show: config.exhibits.show.clone() };
+    let places = ExhibitSource::All { folder: config.exhibits.folder.clone(), show: config.exhibits.show.clone() };
     let mut failure = None;
-    let mut folders = shelf::folders(&places);
-    folders.sort_by_key(|folder| Some(shelf::id(folder).as_str()) != last);
+    let mut folders = catalog::folders(&places);
+    folders.sort_by_key(|folder| Some(catalog::id(folder).as_str()) != last);
     for folder in folders {
         match setup::open(&folder.to_string_lossy()) {
             Ok(exhibit) => return Ok((exhibit, places)),
@@ -203,12 +207,12 @@ fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop:
 /// Logs go to stderr, and their last lines to the staff panel; `RUST_LOG` says how much. The sound server's client calls
 /// its own orderly end an error.
 fn log_to_stderr(log: &Log) {
-    let asked = std::env::var("RUST_LOG").ok().and_then(|words| words.parse::<Targets>().ok());
+    let requested = std::env::var("RUST_LOG").ok().and_then(|filter| filter.parse::<Targets>().ok());
     let usual = || {
         let levels = [("soffio", LevelFilter::INFO), ("pulseaudio", LevelFilter::OFF)];
         Targets::new().with_default(LevelFilter::ERROR).with_targets(levels)
     };
-    let filter = asked.unwrap_or_else(usual);
+    let filter = requested.unwrap_or_else(usual);
     let terminal = std::io::stderr().is_terminal();
     let lines = tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_ansi(terminal);
     // A second call in one process keeps the first log.

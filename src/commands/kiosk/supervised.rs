@@ -5,7 +5,7 @@ use std::sync::Arc;
 use soffio_authoring::template::Template;
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::fleet::kept::{Keeper, Kept, folder, last_good};
+use soffio_kiosk::fleet::persisted::{PersistedState, StateStore, folder, last_good};
 
 /// Set by the launcher from the second start on.
 const RESTARTED: &str = "SOFFIO_RESTARTED";
@@ -30,42 +30,42 @@ pub fn config_in_need(error: &ConfigError) -> Option<Config> {
 
 /// A run that has begun.
 pub struct Begun {
-    /// Keeps what outlives it.
-    pub keeper: Keeper,
-    /// What the runs before it have left.
-    pub kept: Kept,
+    /// Store of the persisted state.
+    pub store: StateStore,
+    /// Persisted state of the runs before.
+    pub persisted: PersistedState,
     /// Is this one in safe mode?
     pub safe: bool,
     died: bool,
 }
 
-/// Begins a run: counts it, and says how the one before ended.
+/// Begins a run: counts it, and logs a crash of the one before.
 pub fn begin(config: &Config, asked_safe: bool) -> Begun {
-    let (mut keeper, mut kept) = Keeper::open(folder(config));
-    let died = kept.begin();
-    keeper.begin(&kept);
+    let (mut store, mut persisted) = StateStore::open(folder(config));
+    let died = persisted.begin();
+    store.begin(&persisted);
     if died {
-        tracing::warn!("the run before this one died; start {} goes on with what it kept", kept.starts);
+        tracing::warn!("the run before this one crashed; start {} restores its state", persisted.starts);
     }
-    Begun { keeper, safe: asked_safe || kept.wants_safe_mode(), kept, died }
+    Begun { store, safe: asked_safe || persisted.wants_safe_mode(), persisted, died }
 }
 
 impl Begun {
-    /// The work that a run that died had on show. Who ended in order begins with the first one.
-    pub fn goes_on_with(&self) -> Option<&str> {
-        self.died.then_some(self.kept.on_show.as_str())
+    /// The exhibit that was on show at a crash; `None` after an orderly end.
+    pub fn restored_exhibit(&self) -> Option<&str> {
+        self.died.then_some(self.persisted.on_show.as_str())
     }
 }
 
-/// A work that needs no file of the exhibits' folder.
+/// An exhibit that needs no file of the exhibits' folder.
 pub struct BuiltIn {
-    /// The work.
+    /// The exhibit.
     pub exhibit: Arc<Exhibit>,
-    /// Holds its files for as long as it is shown.
+    /// Holds its files while it is shown.
     _folder: tempfile::TempDir,
 }
 
-/// The pendulum of a shelf clock, from the program itself; where even that fails it is said, and the others are tried.
+/// A pendulum, built into the program; a failure is logged, and the configured exhibits are used.
 pub fn built_in() -> Option<BuiltIn> {
     let made = || {
         let made = Template::Pendulum.copy("pendulum").map_err(|error| error.to_string())?;
@@ -78,5 +78,5 @@ pub fn built_in() -> Option<BuiltIn> {
         let exhibit = exhibit::load(&inside).map_err(|error| error.to_string())?;
         Ok::<_, String>(BuiltIn { exhibit: Arc::new(exhibit), _folder: folder })
     };
-    made().inspect_err(|error| tracing::error!("the built-in work cannot be shown: {error}")).ok()
+    made().inspect_err(|error| tracing::error!("the built-in exhibit cannot be shown: {error}")).ok()
 }

@@ -1,4 +1,4 @@
-//! Pictures of a run as `soffio play` was asked for them: a folder of frames, a video, or both.
+//! Pictures of a run: a folder of frames, a video, or both.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use soffio_offline::pictures::{Pictures, write_png};
 use soffio_offline::video::{Plan, Video};
 use soffio_simulation::Snapshot;
 
-/// Pictures on their way.
+/// Pictures that are being written.
 pub(super) struct Filming {
     pictures: Pictures,
     folder: Option<PathBuf>,
@@ -18,7 +18,7 @@ pub(super) struct Filming {
 }
 
 impl Filming {
-    /// What the command line asks for, if anything, of a run of so many seconds.
+    /// The requested pictures of a run of so many seconds; `None` where none are requested.
     pub fn new(wanted: &Outputs, exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Option<Self>, Failure> {
         if wanted.frames.is_none() && wanted.video.is_none() {
             return Ok(None);

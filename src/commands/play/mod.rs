@@ -25,7 +25,7 @@ use outputs::Outputs;
 /// Seconds of a run without a recording, and after the end of one.
 const TAIL: f64 = 5.0;
 
-/// Runs an exhibit offline, faster than real time, deterministic.
+/// Runs an exhibit offline: faster than real time, and deterministic.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Examples:\n  soffio play steel-fish --breath blow.wav --audio out.wav --trace out.csv\n  \
                         soffio play wind-chimes --script visit.jsonl --video visit.mp4 --size 640x360 --fps 30\n  \
@@ -33,13 +33,13 @@ const TAIL: f64 = 5.0;
 pub struct Args {
     /// Id under `exhibits/`, or a folder.
     exhibit: String,
-    /// Recorded breath, heard as the microphone; two channels are two capsules.
+    /// Recorded breath in place of the microphone; two channels are two microphones.
     #[arg(long, value_name = "WAV")]
     breath: Option<PathBuf>,
-    /// Where the breath is aimed, picture coordinates: 0,0 top left, 1,1 bottom right.
+    /// Aim of the breath, picture coordinates: 0,0 top left, 1,1 bottom right.
     #[arg(long, value_name = "X,Y", value_parser = parse_aim, allow_hyphen_values = true, conflicts_with = "script")]
     aim: Option<[f64; 2]>,
-    /// What a visitor does over time, JSON lines.
+    /// Actions of a visitor over time, JSON lines.
     #[arg(long, value_name = "FILE")]
     script: Option<PathBuf>,
     /// How a breath becomes wind.
@@ -57,24 +57,24 @@ pub struct Args {
     /// Time of day at the start, to which a clock sets its hands, such as 14:35.
     #[arg(long, value_name = "H:MM", value_parser = soffio_exhibit::clock::time_of_day)]
     clock: Option<f64>,
-    /// Seed of all that is random.
+    /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     #[command(flatten)]
     outputs: Outputs,
-    /// Moves the exhibit by the laws and by places (`--solver procedural` or `position-based`, the default here) from the
-    /// same input, and tells how far the two come apart.
+    /// Runs the exhibit with dynamics and with another solver (`--solver procedural` or `position-based`, the default here)
+    /// from the same input, and reports the differences.
     #[arg(long, conflicts_with_all = COMPARE_LEAVES)]
     compare: bool,
-    /// How far apart the two are in each frame: places, turns, energies, events.
+    /// Differences in each frame: positions, rotations, energies, events.
     #[arg(long, value_name = "OUT.csv", requires = "compare")]
     out: Option<PathBuf>,
-    /// The same drawn over time.
+    /// Plot of the differences over time.
     #[arg(long, value_name = "OUT.png", requires = "compare")]
     plot: Option<PathBuf>,
 }
 
-/// What one run leaves and two do not.
+/// Outputs of a single run that a comparison does not have.
 #[cfg(feature = "kiosk")]
 const COMPARE_LEAVES: [&str; 6] = ["audio", "dry", "trace", "events", "frames", "video"];
 #[cfg(not(feature = "kiosk"))]
@@ -83,10 +83,10 @@ const COMPARE_LEAVES: [&str; 4] = ["audio", "dry", "trace", "events"];
 /// Breath profile on the command line.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum ProfileArg {
-    /// No travelling front, gain for a child's gentle breath.
+    /// The breath arrives at once, with a gain for a child's gentle breath.
     Gallery,
-    /// Gain 1, the front travels.
-    True,
+    /// The physics of a real jet: gain 1, and the jet's front travels.
+    Physical,
 }
 
 /// Reads `x,y`.
@@ -102,13 +102,13 @@ pub fn run(args: Args) -> Outcome {
     let exhibit = setup::open(&args.exhibit)?;
     let recording = args.breath.as_ref().map(wav::read).transpose().map_err(Failure::input)?;
     let script = args.script.as_ref().map(|path| read_script(path, &exhibit)).transpose()?;
-    let heard = recording.as_ref().map_or(0.0, wav::Recording::duration);
-    let told = script.as_ref().map_or(0.0, Script::duration);
-    let seconds = args.seconds.unwrap_or(heard.max(told) + TAIL);
+    let recorded_s = recording.as_ref().map_or(0.0, wav::Recording::duration);
+    let script_s = script.as_ref().map_or(0.0, Script::duration);
+    let seconds = args.seconds.unwrap_or(recorded_s.max(script_s) + TAIL);
     let settings = Settings {
         profile: match args.profile {
             ProfileArg::Gallery => Profile::Gallery,
-            ProfileArg::True => Profile::Physical,
+            ProfileArg::Physical => Profile::Physical,
         },
         seed: args.seed,
         wind: !args.no_wind,
@@ -118,7 +118,7 @@ pub fn run(args: Args) -> Outcome {
     let mode = match (args.compare, args.solver) {
         (true, SolverArg::Auto) => Some(MotionMode::PositionBased),
         (true, SolverArg::Dynamics) => {
-            let message = "--compare sets the laws beside --solver procedural or position-based".into();
+            let message = "--compare compares dynamics with --solver procedural or position-based".into();
             return Err(Failure { code: 2, message });
         }
         _ => args.solver.mode(),
@@ -131,7 +131,7 @@ pub fn run(args: Args) -> Outcome {
         script,
         seconds,
         aspect: args.outputs.aspect(),
-        reverb: setup::room()?,
+        reverb: setup::reverb()?,
         fps: args.outputs.fps,
         ..Play::default()
     };
@@ -141,7 +141,7 @@ pub fn run(args: Args) -> Outcome {
     if args.compare {
         let compared = compare::run(&exhibit, play, &stop, |step| progress.set_position(step));
         progress.finish_and_clear();
-        return tell(compared, &args, &exhibit);
+        return report(compared, &args, &exhibit);
     }
     let summary = args.outputs.perform(&exhibit, play, &stop, &progress);
     progress.finish_and_clear();
@@ -149,8 +149,8 @@ pub fn run(args: Args) -> Outcome {
     Ok(())
 }
 
-/// Writes a comparison where it was asked for, and its numbers as one line.
-fn tell(compared: Result<compare::Comparison, PlayError>, args: &Args, exhibit: &Exhibit) -> Outcome {
+/// Writes the requested files of a comparison, and its summary as one line.
+fn report(compared: Result<compare::Comparison, PlayError>, args: &Args, exhibit: &Exhibit) -> Outcome {
     let compared = compared.map_err(Failure::of_run)?;
     if let Some(path) = &args.out {
         compared.write_csv(path).map_err(Failure::input)?;

@@ -1,4 +1,4 @@
-//! What a run leaves: sound, traces, events, pictures, as `soffio play` and `soffio replay` are asked for them.
+//! Outputs of a run for `soffio play` and `soffio replay`: sound, traces, events, pictures.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,7 +18,7 @@ pub struct Outputs {
     /// Sound of the run, stereo 48 kHz float.
     #[arg(long, value_name = "OUT.wav")]
     pub audio: Option<PathBuf>,
-    /// Sound without room and limiter.
+    /// Sound without reverberation and limiter.
     #[arg(long)]
     pub dry: bool,
     /// Poses of the moving bodies.
@@ -44,7 +44,7 @@ pub struct Outputs {
 }
 
 impl Outputs {
-    /// Is anything wanted that knows one run only?
+    /// Is an output requested that holds one run only?
     pub fn wants_files(&self) -> bool {
         let files = [&self.audio, &self.trace, &self.events];
         #[cfg(feature = "kiosk")]
@@ -54,7 +54,7 @@ impl Outputs {
         pictures || files.iter().any(|file| file.is_some())
     }
 
-    /// The run, leaving all this.
+    /// The run with these outputs.
     pub fn of(&self, play: Play) -> Play {
         let Self { audio, dry, trace, events, fps, .. } = self;
         Play { audio: audio.clone(), dry: *dry, trace: trace.clone(), events: events.clone(), fps: *fps, ..play }
@@ -77,7 +77,7 @@ impl Outputs {
         play::run(exhibit, self.of(play), stop, |step| progress.set_position(step), None).map_err(Failure::of_run)
     }
 
-    /// Runs the exhibit, and films it where pictures are wanted.
+    /// Runs the exhibit, and renders frames where requested.
     #[cfg(feature = "kiosk")]
     pub fn perform(
         &self,

@@ -316,7 +316,7 @@ impl Supervisor {
         if !self.loudspeaker.due() {
             return;
         }
-        let result = choose(Direction::Output, &self.settings.loudspeaker, self.settings.block_ms).and_then(|chosen| {
+        let result = choose(Direction::Output, &self.settings.output, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format, shortest_block } = chosen;
             let open = |config: StreamConfig| {
                 let (player, voice, workshop) =
@@ -409,7 +409,7 @@ impl Supervisor {
         let result = choose(Direction::Input, &self.settings.microphone, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format, .. } = chosen;
             let open = |config: StreamConfig| {
-                let wanted = [self.settings.microphone_channel, self.settings.second_capsule_channel];
+                let wanted = [self.settings.microphone_channel, self.settings.second_microphone_channel];
                 let (recorder, ears) = input::open(config.sample_rate, config.channels.into(), wanted);
                 Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, ears))
             };
@@ -420,8 +420,8 @@ impl Supervisor {
             Ok((stream, ears, id, name, sample_rate)) => {
                 let capsules = ears.capsules();
                 tracing::info!("microphone: {name}, {sample_rate} Hz, capsules: {capsules}");
-                if capsules < 2 && self.settings.second_capsule_channel > 0 {
-                    tracing::warn!("no second capsule: {}", remedies::NO_SECOND_CAPSULE);
+                if capsules < 2 && self.settings.second_microphone_channel > 0 {
+                    tracing::warn!("no second capsule: {}", remedies::NO_SECOND_MICROPHONE);
                 }
                 self.microphone.opened(stream, id, sample_rate);
                 self.link(Link::Microphone(Some(ears)));

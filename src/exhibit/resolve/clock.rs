@@ -37,7 +37,7 @@ impl Context<'_> {
         };
         self.record_origin("clock", "shows", given.shows.clone(), "/clock/shows", "");
         let by_hour = self.turnings(&given.by_hour, "/clock/by_hour")?;
-        let by_strike = self.turnings(&given.by_blow, "/clock/by_blow")?;
+        let by_strike = self.turnings(&given.by_strike, "/clock/by_strike")?;
         Some(Clock {
             minute_hand: hand,
             axis: axis.direction,
@@ -53,7 +53,7 @@ impl Context<'_> {
         let one = |(index, turning): (usize, &sidecar::Turning)| {
             let at = format!("{at}/{index}");
             let (body, axis) = self.clock_wheel(&turning.body, turning.axis, &at, &format!("{at}/body"))?;
-            Some(CountedRotation { body, axis: axis.direction, angle: turning.turn.0 })
+            Some(CountedRotation { body, axis: axis.direction, angle: turning.angle.0 })
         };
         given.iter().enumerate().map(one).collect()
     }

@@ -69,6 +69,7 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
     add_path_nodes(&mut model, &sidecar);
     let mut context = Context::new(&source, &sidecar, &model, folder);
     context.problems.extend(warnings.into_iter().map(placed));
+    context.problems.extend(source.old_names());
     let exhibit = context.resolve();
     let report = alone(std::mem::take(&mut context.problems));
     if report.has_errors() {
@@ -222,7 +223,7 @@ impl Context<'_> {
                 followed.map(|&(_, animation, repeat)| (animation, repeat))
             }),
             duration: self.duration(),
-            assembles: self.sidecar.scene.gathers.unwrap_or(true),
+            assembles: self.sidecar.scene.assembly_animation.unwrap_or(true),
             motion: self.motion(),
             touch,
             clock,

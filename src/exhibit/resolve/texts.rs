@@ -154,7 +154,7 @@ impl Context<'_> {
         at: &str,
         number: usize,
     ) -> Option<AttractAction> {
-        match (&given.show, &given.blow, &given.look, given.reset) {
+        match (&given.show, &given.blow, &given.camera, given.reset) {
             (Some(key), None, None, false) => {
                 if !labels.languages.is_empty() {
                     self.require_text(key, "text", &format!("{at}/show"), |texts| &texts.text);
@@ -171,14 +171,14 @@ impl Context<'_> {
                 Some(AttractAction::Blow { samples, sample_rate, aim: blow.aim })
             }
             (None, None, Some(turn), false) => {
-                Some(AttractAction::Look(self.look(turn.map(Angle::si), &format!("{at}/look"))))
+                Some(AttractAction::Look(self.look(turn.map(Angle::si), &format!("{at}/camera"))))
             }
             (None, None, None, true) => Some(AttractAction::Reset),
             _ => {
                 let problem = Diagnostic::new(codes::WRONG_SHAPE, "a step must have exactly one action");
                 self.report(
                     at,
-                    problem.help("give one of show, blow, look and reset = true; two steps may have the same time"),
+                    problem.help("give one of show, blow, camera and reset = true; two steps may have the same time"),
                 );
                 None
             }

@@ -38,11 +38,11 @@ impl Context<'_> {
 
     /// Idle damping.
     pub(super) fn calm(&mut self) -> Option<IdleDampingSpec> {
-        let given = self.sidecar.wind.calm?;
-        let after = self.not_negative(given.after.0, "/wind/calm/after");
-        let time = self.positive(given.time.0, "/wind/calm/time");
-        self.record_origin("calm", "after", format!("{after} s"), "/wind/calm/after", "");
-        self.record_origin("calm", "time", format!("{time} s"), "/wind/calm/time", "");
+        let given = self.sidecar.wind.idle_damping?;
+        let after = self.not_negative(given.after.0, "/wind/idle_damping/after");
+        let time = self.positive(given.time.0, "/wind/idle_damping/time");
+        self.record_origin("idle damping", "after", format!("{after} s"), "/wind/idle_damping/after", "");
+        self.record_origin("idle damping", "time", format!("{time} s"), "/wind/idle_damping/time", "");
         Some(IdleDampingSpec { after, time })
     }
 
@@ -50,8 +50,8 @@ impl Context<'_> {
     pub(super) fn winds(&mut self) -> Vec<Wind> {
         let sidecar = self.sidecar;
         let mut winds: Vec<Wind> = Vec::new();
-        if let Some(room) = &sidecar.wind.room {
-            winds.push(self.ambient_turbulence(room, "/wind/room"));
+        if let Some(room) = &sidecar.wind.ambient {
+            winds.push(self.ambient_turbulence(room, "/wind/ambient"));
         }
         for (i, fan) in sidecar.wind.fan.iter().enumerate() {
             let at = format!("/wind/fan/{i}");
@@ -78,8 +78,8 @@ impl Context<'_> {
     fn ambient_turbulence(&mut self, given: &sidecar::AmbientTurbulence, at: &str) -> Wind {
         let scale = given.scale.map_or(AMBIENT_SCALE, |l| self.positive(l.0, &format!("{at}/scale")));
         let period = given.period.map_or(AMBIENT_PERIOD, |t| self.positive(t.0, &format!("{at}/period")));
-        self.record_origin("wind room", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
-        self.record_origin("wind room", "period", format!("{period} s"), &format!("{at}/period"), "default");
+        self.record_origin("ambient turbulence", "scale", format!("{scale} m"), &format!("{at}/scale"), "default");
+        self.record_origin("ambient turbulence", "period", format!("{period} s"), &format!("{at}/period"), "default");
         let kind = WindKind::Turbulence { scale, period, seed: given.seed };
         Wind {
             name: AMBIENT.into(),

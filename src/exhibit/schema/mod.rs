@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::codes;
 use super::diagnostic::{Diagnostic, quoted, similar_names};
+use super::renamed::{FileKind, add_old_names};
 use super::sidecar::Sidecar;
 use super::source::{SidecarText, join};
 use validate::{Kind, Problem};
@@ -24,6 +25,13 @@ pub fn schema() -> Value {
         SchemaSettings::draft2020_12().with_transform(open).into_generator().into_root_schema_for::<Sidecar>();
     root.insert("title".into(), "Soffio exhibit sidecar, format exhibit/1".into());
     root.to_value()
+}
+
+/// The schema for editors: old names are allowed, and marked as deprecated.
+pub fn schema_with_old_names() -> Value {
+    let mut schema = schema();
+    add_old_names(FileKind::Sidecar, &mut schema);
+    schema
 }
 
 /// All violations of the sidecar's schema, each with its location and remedy.

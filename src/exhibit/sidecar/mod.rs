@@ -111,7 +111,7 @@ pub struct Scene {
     /// Length of one run: the exhibit then starts again; by default "inf".
     pub duration: Option<Until>,
     /// Does it play an assembly animation when it is shown? By default true.
-    pub gathers: Option<bool>,
+    pub assembly_animation: Option<bool>,
 }
 
 /// How motion is computed.
@@ -172,7 +172,7 @@ pub struct Clock {
     pub by_hour: Vec<Turning>,
     /// Bodies that rotate by a fixed angle at each strike of the bell.
     #[serde(default)]
-    pub by_blow: Vec<Turning>,
+    pub by_strike: Vec<Turning>,
     /// Body that moves while the clock strikes; setting the hands waits for it.
     pub strikes: Option<String>,
 }
@@ -186,7 +186,7 @@ pub struct Turning {
     /// Axis, in its node space.
     pub axis: [f64; 3],
     /// Angle.
-    pub turn: Angle,
+    pub angle: Angle,
 }
 
 impl Default for Touch {

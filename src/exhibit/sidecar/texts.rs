@@ -17,7 +17,7 @@ pub struct Attract {
     pub duration: Option<Time>,
 }
 
-/// One step of the attract script: one of show, blow, look, reset.
+/// One step of the attract script: one of show, blow, camera, reset.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AttractStep {
@@ -28,7 +28,7 @@ pub struct AttractStep {
     /// A breath.
     pub blow: Option<Blow>,
     /// Orbits the camera: to the right and up from its own position; [0, 0] returns it.
-    pub look: Option<[Angle; 2]>,
+    pub camera: Option<[Angle; 2]>,
     /// Resets the exhibit to its start. It jumps there: for exhibits whose parts break or roll away.
     #[serde(default)]
     pub reset: bool,

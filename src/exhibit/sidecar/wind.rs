@@ -13,9 +13,9 @@ pub struct Winds {
     /// How a breath acts on this exhibit.
     pub breath: BreathTuning,
     /// Idle damping: brings the exhibit to rest when nobody blows, so that the next breath is visible. By default none.
-    pub calm: Option<Calm>,
+    pub idle_damping: Option<IdleDamping>,
     /// Ambient turbulence, which keeps a mobile moving when nobody blows. By default none.
-    pub room: Option<AmbientTurbulence>,
+    pub ambient: Option<AmbientTurbulence>,
     /// Jets from a round opening: a fan, an air conditioner.
     pub fan: Vec<Fan>,
     /// Winds in one direction: from a door, through a window.
@@ -48,7 +48,7 @@ impl Default for BreathTuning {
 /// Idle damping: the air of the gallery becomes more viscous when nobody blows. The profile "physical" leaves it out.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Calm {
+pub struct IdleDamping {
     /// Delay after the last breath or grab.
     pub after: Time,
     /// Time in which free motion decays to 37 % at first; oscillations take twice as long. The damping grows eightfold

@@ -1,7 +1,7 @@
-//! Attract mode: what the kiosk shows while nobody is there.
+//! Attract mode: plays the exhibit's script while nobody is there.
 //!
-//! Knows steps and seconds since the last input. It never looks at a clock and never moves a body itself: it returns
-//! commands and camera turns, and whoever steps the simulation carries them out.
+//! It knows the steps and seconds since the last input. It never reads a clock and never moves a body: it returns commands
+//! and camera angles, which the stage applies.
 
-pub mod drift;
+pub mod camera_sway;
 pub mod script;

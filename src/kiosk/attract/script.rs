@@ -1,13 +1,12 @@
-//! Attract mode: is somebody here, and what to show when not.
+//! Attract mode: detects whether a visitor is here, and plays the exhibit's script if not.
 //!
-//! "Somebody" is any input, a breath included; noise in the room is not a visitor, because only what the blow
-//! detector takes for a breath counts. When nobody was there for the idle time, the exhibit's own script plays,
-//! round after round, until the very step at which somebody is.
+//! Any input counts as a visitor, a detected breath included; noise in the room does not. After the idle time without an
+//! input the exhibit's own script plays, round after round, until the step of the next input.
 //!
-//! The script's recorded breaths are heard by a detector of their own and reach the wind as a speed. So the
-//! simulation's detector never stops listening to the room: it keeps its knowledge of the noise, and the first
-//! visitor's breath ends the show and moves the sculpture in the same moment. So that it is seen to, what the script has
-//! set swinging comes to rest soon after each of its breaths, and at once when somebody comes.
+//! A detector of its own measures the script's recorded breaths, which reach the wind as a speed. The simulation's detector
+//! keeps tracking the noise of the room meanwhile, so the first breath of a visitor ends the script and moves the exhibit in
+//! the same step. To make that visible, the exhibit is damped soon after each breath of the script, and at once when a
+//! visitor comes.
 
 use soffio_detector::BlowDetector;
 use soffio_exhibit::{self as exhibit, AttractAction};
@@ -15,45 +14,45 @@ use soffio_math::exp;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::{Command, STEPS_PER_SECOND};
 
-/// Before attract mode begins it is shown for so long that it will, s.
+/// Length of the countdown before attract mode, s.
 pub const COUNTDOWN_S: f64 = 10.0;
 
-/// Breaths of the script are blown so much more softly, and swell within so long, s. They show that breath moves the work; whoever
-/// comes and blows meanwhile, though gently, shall see that theirs moves it more.
+/// Factor on the speed of the script's breaths, and the time in which they rise, s. They show that breath moves the exhibit;
+/// a gentle breath of a visitor must still move it more.
 const SOFTLY: f64 = 0.13;
 const SWELLS_S: f64 = 0.3;
-/// And the more softly the faster the work moves than before them: half as fast where something does so by this much, m/s. The
-/// fastest of what moved before is remembered over so long, s.
+/// Increase of the exhibit's fastest motion, m/s, that halves the script's breath; and the time constant with which the fastest
+/// motion is remembered, s.
 const SWAYS_M_S: f64 = 0.03;
 const MOVED_S: f64 = 1.0;
-/// A work swings for so long after a breath of the script before it is calmed, s.
+/// Time after a breath of the script until the exhibit is damped, s.
 const SWINGS_S: f64 = 1.0;
 
-/// What attract mode wants at one step.
+/// Output of attract mode for one step.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cue {
     /// Is the script playing?
     pub active: bool,
-    /// Before the step, in this order.
+    /// Commands to apply before the step, in order.
     pub commands: Vec<Command>,
-    /// Where the script's breath is aimed; `None` is the centre.
+    /// Aim of the script's breath; `None` is the centre.
     pub aim: Option<[f64; 2]>,
-    /// Where the script leads the camera, to the right and up, rad; `None` where it leaves it.
+    /// Camera angles of the script, to the right and up, rad; `None` where it does not move the camera.
     pub look: Option<[f64; 2]>,
 }
 
-/// Watches for visitors, and plays the script when there are none.
+/// State of attract mode.
 #[derive(Clone, Debug)]
-pub struct Attract {
+pub struct AttractMode {
     script: exhibit::Attract,
     idle_limit: u64,
     idle: u64,
-    /// Has anybody been here since the last round?
+    /// Was a visitor here since the last round?
     met: bool,
     round: Option<Round>,
     /// Rounds that have ended.
     rounds: u32,
-    /// How fast the fastest part of the work moved lately, m/s.
+    /// Recent speed of the fastest body, m/s.
     moved: f64,
 }
 
@@ -64,30 +63,30 @@ struct Round {
     next: usize,
     text: Option<String>,
     breath: Option<(WavFeed, BlowDetector)>,
-    /// How far it has swollen, 0 … 1.
+    /// Rise of the breath, 0 … 1.
     swollen: f64,
-    /// How fast something moved before it, m/s.
+    /// Speed of the fastest body before the breath, m/s.
     before: f64,
-    /// Steps until the work is calmed.
+    /// Steps until the exhibit is damped.
     swings: Option<u64>,
     aim: Option<[f64; 2]>,
     look: Option<[f64; 2]>,
 }
 
-impl Attract {
+impl AttractMode {
     /// Attract mode with the exhibit's `script` after `idle_s` seconds without a visitor.
     pub fn new(script: exhibit::Attract, idle_s: f64) -> Self {
         Self { script, idle_limit: steps(idle_s).max(1), idle: 0, met: false, round: None, rounds: 0, moved: 0.0 }
     }
 
-    /// Plays from the next step on, for nobody has come.
-    pub fn go_on(mut self) -> Self {
+    /// Plays from the next step on, without the idle time.
+    pub fn starting_now(mut self) -> Self {
         self.idle = self.idle_limit;
         self
     }
 
-    /// Advances by one simulation step; `visitor` says that somebody did something since the last, and the fastest part of the
-    /// work `moves` so fast, m/s.
+    /// Advances by one simulation step. `visitor`: there was an input since the last step. `moves` is the speed of the fastest
+    /// body, m/s.
     pub fn step(&mut self, visitor: bool, moves: f64) -> Cue {
         self.moved = moves.max(self.moved * exp(-1.0 / (MOVED_S * STEPS_PER_SECOND as f64)));
         if visitor {
@@ -109,7 +108,7 @@ impl Attract {
         self.rounds
     }
 
-    /// What is left of the idle time, s, in its last seconds, where somebody was here.
+    /// Time until attract mode begins, s, during the countdown; `None` before it, and where no visitor was here.
     pub fn begins_in(&self) -> Option<f64> {
         let left = self.idle_limit.saturating_sub(self.idle) as f64 / STEPS_PER_SECOND as f64;
         (self.met && self.round.is_none() && left <= COUNTDOWN_S).then_some(left)
@@ -125,15 +124,15 @@ impl Attract {
         self.round.as_ref().and_then(|round| round.text.as_deref())
     }
 
-    /// One step of the script. Kept apart: it makes room for a new ear on the stack, which no other step needs.
+    /// One step of the script. Not inlined: it needs stack for a new detector, which no other step does.
     #[inline(never)]
     fn play(&mut self, moves: f64) -> Cue {
         let mut commands = Vec::new();
-        // A last breath may be longer than the round: the next round waits for it.
+        // A last breath may outlast the round: the next round waits for it.
         let over = |round: &Round| round.step >= steps(self.script.duration) && round.breath.is_none();
         if self.round.as_ref().is_none_or(over) {
             self.rounds += u32::from(self.round.is_some());
-            // A new round leads a camera back that the last one has led away.
+            // A new round moves the camera back if the last one has moved it.
             let look = self.round.take().and_then(|round| round.look).map(|_| [0.0; 2]);
             self.round = Some(Round { look, ..Round::default() });
         }

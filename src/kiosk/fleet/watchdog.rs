@@ -1,18 +1,18 @@
-//! What systemd is told: that the kiosk is ready, what it shows, and that it is alive.
+//! systemd notifications: the kiosk is ready, its status, and the watchdog's keep-alive.
 //!
-//! Alive means that since the last word a picture was handed to the display, or offered to one that is off, the simulation
-//! has gone on, and the loudspeaker, where there is one, has played. If any of the three stands still no word is sent, and after
-//! `WatchdogSec` the unit is started anew. Where no systemd waits for it nothing is sent.
+//! A keep-alive is sent only if three things made progress since the last one: frames were presented (or offered to a display
+//! that is off), the simulation advanced, and the loudspeaker played, where there is one. Otherwise systemd restarts the unit
+//! after `WatchdogSec`. Without systemd nothing is sent.
 
 use std::time::{Duration, Instant};
 
-/// Words a watchdog period: one that is lost, or late, does no harm.
-const WORDS: u32 = 3;
+/// Keep-alives a watchdog period: a lost or late one does no harm.
+const MESSAGES_PER_PERIOD: u32 = 3;
 
-/// How far everything has come.
+/// Progress of frames, simulation and sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Pictures handed to the display, or offered while it is off.
+    /// Frames presented, or offered while the display is off.
     pub pictures: u64,
     /// When the last step was due.
     pub due: Instant,
@@ -21,7 +21,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Has all gone on since `before`? A loudspeaker that was lost or has just come is under the care of its supervisor.
+    /// Has everything advanced since `before`? A lost or new loudspeaker is not counted: its supervisor handles it.
     pub fn beyond(&self, before: &Self) -> bool {
         let plays = match (self.played, before.played) {
             (Some(now), Some(then)) => now != then,
@@ -31,7 +31,7 @@ impl Progress {
     }
 }
 
-/// Tells systemd.
+/// Sends the notifications.
 #[derive(Debug)]
 pub struct Watchdog {
     every: Option<Duration>,
@@ -42,17 +42,17 @@ pub struct Watchdog {
 impl Default for Watchdog {
     fn default() -> Self {
         let period = sd_notify::watchdog_enabled();
-        Self { every: period.map(|period| period / WORDS), last: None, status: String::new() }
+        Self { every: period.map(|period| period / MESSAGES_PER_PERIOD), last: None, status: String::new() }
     }
 }
 
 impl Watchdog {
-    /// After a picture: says that the kiosk is ready once, then at every third of the watchdog's period that it is alive,
-    /// if it is; and whatever is new of the status, one line.
-    pub fn tend(&mut self, now: Instant, progress: Progress, status: &str) {
-        let mut words = Vec::new();
+    /// Call after each frame. Sends that the kiosk is ready, once; then a keep-alive at every third of the watchdog's period;
+    /// and a changed status, one line.
+    pub fn update(&mut self, now: Instant, progress: Progress, status: &str) {
+        let mut messages = Vec::new();
         match &self.last {
-            None => words.push(sd_notify::NotifyState::Ready),
+            None => messages.push(sd_notify::NotifyState::Ready),
             Some((at, before)) => {
                 let due = self.every.is_some_and(|every| now.duration_since(*at) >= every);
                 if !(due && progress.beyond(before)) {
@@ -62,22 +62,22 @@ impl Watchdog {
                     }
                     return;
                 }
-                words.push(sd_notify::NotifyState::Watchdog);
+                messages.push(sd_notify::NotifyState::Watchdog);
             }
         }
         self.last = Some((now, progress));
-        self.send(&words);
+        self.send(&messages);
     }
 
-    /// The kiosk ends by itself.
+    /// Sends that the kiosk ends.
     pub fn end(&self) {
         self.send(&[sd_notify::NotifyState::Stopping]);
     }
 
-    fn send(&self, words: &[sd_notify::NotifyState]) {
-        // Without NOTIFY_SOCKET this does nothing; a socket that is gone is the supervisor's own affair.
-        if let Err(error) = sd_notify::notify(words) {
-            tracing::debug!("systemd is not told: {error}");
+    fn send(&self, messages: &[sd_notify::NotifyState]) {
+        // Without NOTIFY_SOCKET this does nothing; a closed socket is the supervisor's concern.
+        if let Err(error) = sd_notify::notify(messages) {
+            tracing::debug!("systemd is not notified: {error}");
         }
     }
 }

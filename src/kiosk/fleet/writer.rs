@@ -1,5 +1,5 @@
-//! A file that is written again and again, whole each time, on a thread of its own: a slow or full disk makes nothing
-//! late, and is said once.
+//! Rewrites a file as a whole, again and again, on a thread of its own: a slow or full disk delays nothing, and is logged
+//! once.
 
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::thread::JoinHandle;
 
 use soffio_offline::atomic_file::AtomicFile;
 
-/// Writes one file.
+/// Writer of one file.
 #[derive(Debug)]
 pub struct Writer {
     to: Option<SyncSender<String>>,
@@ -16,9 +16,9 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Of the file at `path`; `name` is what the log calls it.
+    /// For the file at `path`; `name` is its name in the log.
     pub fn start(name: &'static str, path: PathBuf) -> Self {
-        // One text waits at most: what comes while the disk is slow is outdated when the disk is ready.
+        // At most one text waits: later ones would be outdated when a slow disk is ready.
         let (to, from) = sync_channel::<String>(1);
         let write = move || {
             let mut failed = false;
@@ -26,8 +26,8 @@ impl Writer {
                 let result = write(&path, &text);
                 match &result {
                     Ok(()) if failed => tracing::info!("{name}: {} is written again", path.display()),
-                    // Once for all that follow alike.
-                    Err(error) if !failed => tracing::warn!("{name}: {error}. The kiosk goes on without it."),
+                    // Logged once for all failures in a row.
+                    Err(error) if !failed => tracing::warn!("{name}: {error}. The kiosk continues without it."),
                     _ => {}
                 }
                 failed = result.is_err();
@@ -42,8 +42,7 @@ impl Writer {
         }
     }
 
-    /// Hands over the file's whole text; says whether it was taken. It is not while the disk has not even begun the
-    /// text before this one.
+    /// Hands over the file's whole text. Returns `false` if the text before is still waiting for the disk.
     pub fn write(&self, text: String) -> bool {
         self.to.as_ref().is_some_and(|to| to.try_send(text).is_ok())
     }
@@ -51,7 +50,7 @@ impl Writer {
     /// Writes a last text and waits until it is there.
     pub fn finish(mut self, text: String) {
         if let Some(to) = self.to.take() {
-            // Fails only when the thread died, which nobody can mend now.
+            // Fails only when the thread has panicked.
             let _ = to.send(text);
         }
         if let Some(thread) = self.thread.take() {

@@ -1,16 +1,16 @@
-//! The simulation thread: the wall clock, the microphone and the loudspeaker around a [`Stage`].
+//! The simulation thread: wall clock, microphone and loudspeaker around a [`Stage`].
 //!
-//! The thread wakes at step boundaries, consumes everything that the microphone has delivered since (spread evenly
-//! over the steps due, so that the way from breath to wind never grows), steps, and publishes. The window never
-//! waits for a step and the simulation never for a picture: both sides share two small values, each under a mutex
-//! held for a copy. Only the clock, the devices and the trace file are here; what a step does is in [`Stage`].
+//! The thread wakes at step boundaries, takes all samples that the microphone has delivered, steps, and publishes. The samples
+//! are spread evenly over the due steps, so that the latency never grows. The window never waits for a step, and the simulation
+//! never for a frame: they share two small values, each under a mutex held for a copy. Only the clock, the devices and the
+//! files are here; the step itself is in [`Stage`].
 
-mod frame;
+mod live_state;
 pub mod microphone;
 mod options;
-pub mod pace;
 pub mod recording;
 mod shared;
+pub mod step_scheduler;
 mod thread;
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -21,7 +21,7 @@ use crate::step::command::KioskCommand;
 use crate::step::controls::Controls;
 use crate::step::inbox::Inbox;
 use crate::step::stage::Stage;
-pub use frame::{Frame, Load, Onset};
+pub use live_state::{LiveState, Onset, RunStatus};
 pub use options::{Options, Report};
 use recording::Recording;
 use shared::{Shared, local_time, lock, trace_error};
@@ -36,8 +36,8 @@ pub struct Live {
 }
 
 impl Live {
-    /// Starts the thread, for a picture of this shape (width over height). `wake` is called in the step in which what stood
-    /// still begins to move.
+    /// Starts the thread, for a picture of this aspect (width over height). `wake` is called in the step in which an idle
+    /// picture begins to move.
     pub fn start(options: Options, aspect: f64, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
         let site = &options.site;
         let settings = Settings { clock: local_time(), ..site.settings };
@@ -50,7 +50,7 @@ impl Live {
         if let Some(record) = &mut record {
             record.begin(&options.exhibit, settings);
         }
-        let frame = Frame { hears: options.recording.is_some(), ..Frame::new(&stage) };
+        let frame = LiveState { hears: options.recording.is_some(), ..LiveState::new(&stage) };
         let closed = options.closed;
         let controls = Controls { aspect, closed, inert: closed, ..Controls::default() };
         let shared = Arc::new(Shared {
@@ -66,7 +66,7 @@ impl Live {
         Ok(Self { shared, thread: Some(thread) })
     }
 
-    /// What the next step takes: levels to overwrite, and the queue of commands. Hold it briefly.
+    /// Inbox of the next step: controls to overwrite, and the queue of commands. Hold the lock briefly.
     pub fn inbox(&self) -> MutexGuard<'_, Inbox> {
         lock(&self.shared.inbox)
     }
@@ -76,8 +76,8 @@ impl Live {
         self.inbox().send(command);
     }
 
-    /// The latest moments.
-    pub fn frame(&self) -> Arc<Frame> {
+    /// The latest state.
+    pub fn frame(&self) -> Arc<LiveState> {
         lock(&self.shared.frame).clone()
     }
 
@@ -94,7 +94,7 @@ impl Live {
     fn join(&mut self) -> Option<Result<Report, String>> {
         self.shared.stop.store(true, Ordering::Relaxed);
         let ended = self.thread.take()?.join();
-        Some(ended.unwrap_or_else(|_| Err("the simulation thread died; see the log above".into())))
+        Some(ended.unwrap_or_else(|_| Err("the simulation thread crashed; see the log above".into())))
     }
 }
 

@@ -1,4 +1,4 @@
-//! What a run is made of, and how it ended.
+//! Options and result of a run.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,32 +8,32 @@ use soffio_exhibit::Exhibit;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::MotionMode;
 
-/// What a run is made of.
+/// Options of a run.
 pub struct Options {
-    /// What is shown first.
+    /// The first exhibit.
     pub exhibit: Arc<Exhibit>,
-    /// What the site says.
+    /// Settings of the site.
     pub site: Site,
-    /// Is the house closed when the run begins?
+    /// Is the venue closed when the run begins?
     pub closed: bool,
-    /// A recording in the microphone's place.
+    /// Recording that replaces the microphone.
     pub recording: Option<WavFeed>,
     /// End after so many steps.
     pub steps: Option<u64>,
-    /// Where the trace goes.
+    /// Path of the trace.
     pub trace: Option<PathBuf>,
-    /// Where the record goes.
+    /// Path of the record.
     pub record: Option<PathBuf>,
-    /// What moves the exhibits; `None` is their own choice.
+    /// Solver of the exhibits' motion; `None` is their own choice.
     pub mode: Option<MotionMode>,
 }
 
-/// How a run ended.
+/// Result of a run.
 #[derive(Clone, Debug, Default, serde::Serialize)]
 pub struct Report {
     /// Steps done.
     pub steps: u64,
-    /// Steps of time that were dropped because the machine was too slow.
+    /// Steps dropped because the machine was too slow.
     pub dropped: u64,
     /// Impacts of the last exhibit.
     pub impacts: u64,
@@ -41,7 +41,7 @@ pub struct Report {
     pub xruns: u64,
     /// A-weighted mean level of all that was played, dB of a full-scale sine; null for silence.
     pub level_dba: Option<f64>,
-    /// Says whether two runs are the same run.
+    /// Hash of the final state: equal for identical runs.
     #[serde(serialize_with = "hex")]
     pub state_hash: u64,
 }

@@ -1,7 +1,7 @@
-//! The record of a live run (`soffio kiosk --record`): what the simulation was told, for `soffio replay`.
+//! The record of a live run (`soffio kiosk --record`): all inputs of the simulation, for `soffio replay`.
 //!
-//! It grows as FILE.part and gets its name when the run ends, so that a run that was cut off leaves what it had, a second
-//! at the most missing. A record that cannot be written ends, with a word in the log; the show goes on.
+//! It is written to FILE.part and renamed when the run ends; after a crash the part misses at most a second. If it cannot be
+//! written, the record ends with an error in the log, and the run continues.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -13,16 +13,16 @@ use soffio_simulation::{STEPS_PER_SECOND, Settings};
 
 use crate::step::stage::Stage;
 
-/// A record on its way.
+/// A record that is being written.
 pub struct Recording {
     recorder: Recorder,
-    /// `None` once it could not be written.
+    /// `None` after a failed write.
     out: Option<BufWriter<File>>,
     path: PathBuf,
 }
 
 impl Recording {
-    /// Begins a record that will be at `path`.
+    /// Begins a record that will be at `path`. The error says why the file cannot be created.
     pub fn create(path: &Path) -> Result<Self, String> {
         let file = File::create(growing(path)).map_err(|error| {
             format!("cannot write the record {}: {error}; check the folder and its permissions", path.display())
@@ -39,10 +39,10 @@ impl Recording {
         self.write(&line);
     }
 
-    /// Takes notice of the step that the stage has just done.
-    pub fn note(&mut self, stage: &Stage) {
+    /// Records the step that the stage has just done.
+    pub fn record(&mut self, stage: &Stage) {
         let now = stage.snapshot();
-        if let Some(line) = self.recorder.step(now.step - 1, &stage.told(), now.breath.speed) {
+        if let Some(line) = self.recorder.step(now.step - 1, &stage.recorded_input(), now.breath.speed) {
             self.write(&line);
         }
         if now.step.is_multiple_of(STEPS_PER_SECOND) {
@@ -55,7 +55,7 @@ impl Recording {
         self.write(&Recorder::end(stage.snapshot().step, stage.state_hash()));
     }
 
-    /// Puts the record in its place.
+    /// Completes the record and gives it its name.
     pub fn finish(mut self) {
         self.attempt(|out| out.flush());
         if self.out.is_some()
@@ -79,7 +79,7 @@ impl Recording {
     }
 }
 
-/// Where it is while it grows.
+/// Path of the incomplete record.
 fn growing(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(".part");

@@ -9,7 +9,7 @@ use egui::text::{ByteIndex, LayoutJob, LayoutSection, TextFormat, TextWrapping};
 use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2};
 
 use crate::pages::bidi;
-use crate::visitor::needs::Reading;
+use crate::visitor::accessibility::TextSettings;
 
 /// Side of a button on the glass, mm (NHM London, multimedia access guidelines).
 pub const BUTTON_MM: f32 = 15.0;
@@ -42,12 +42,12 @@ pub struct Canvas<'a> {
     /// Least side of a button, points.
     pub button: f32,
     /// The visitor's reading settings.
-    pub reading: Reading,
+    pub reading: TextSettings,
 }
 
 impl<'a> Canvas<'a> {
     /// A canvas over all of `picture`, on glass with `points_per_mm`.
-    pub fn new(painter: &'a Painter, picture: Rect, points_per_mm: f32, reading: Reading) -> Self {
+    pub fn new(painter: &'a Painter, picture: Rect, points_per_mm: f32, reading: TextSettings) -> Self {
         let em = picture.height().min(picture.width() * 0.75) / 45.0;
         let scaled = if reading.large { LARGE_TEXT_FACTOR * em } else { em };
         let button = (2.0 * em).max(BUTTON_MM * points_per_mm);

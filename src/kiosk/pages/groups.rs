@@ -3,7 +3,7 @@
 //! `exhibits.groups` of the configuration assigns the exhibits. A group without exhibits has no heading. A heading is never
 //! the last row of a page.
 
-use soffio_config::{Group, OTHERS};
+use soffio_config::{ExhibitGroup, OTHERS};
 
 /// A row of a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,9 +15,9 @@ pub enum Row {
 }
 
 /// All rows for the exhibits with these ids.
-pub fn rows(ids: &[&str], groups: &[Group], columns: usize) -> Vec<Row> {
+pub fn rows(ids: &[&str], groups: &[ExhibitGroup], columns: usize) -> Vec<Row> {
     let place = |id: &str| {
-        let of = |name: &str| groups.iter().position(|group| group.works.iter().any(|id| id == name));
+        let of = |name: &str| groups.iter().position(|group| group.exhibits.iter().any(|id| id == name));
         of(id).or_else(|| of(OTHERS))
     };
     let mut rows = Vec::new();
@@ -58,7 +58,7 @@ pub fn paginate(rows: Vec<Row>, page: f32, heading: f32, exhibits: f32) -> Vec<V
 }
 
 /// A group's heading in a language, else in English, else in any language.
-pub fn heading<'a>(group: &'a Group, language: &str) -> &'a str {
+pub fn heading<'a>(group: &'a ExhibitGroup, language: &str) -> &'a str {
     let base = language.split(['-', '_']).next().unwrap_or(language);
     let find = |code: &str| group.heading.get(code);
     let found = find(language).or_else(|| find(base)).or_else(|| find("en")).or_else(|| group.heading.values().next());
@@ -69,9 +69,9 @@ pub fn heading<'a>(group: &'a Group, language: &str) -> &'a str {
 mod tests {
     use super::*;
 
-    fn group(name: &str, ids: &[&str]) -> Group {
+    fn group(name: &str, ids: &[&str]) -> ExhibitGroup {
         let heading = [("en".to_owned(), name.to_owned()), ("it".to_owned(), format!("{name}, in italiano"))];
-        Group { heading: heading.into(), works: ids.iter().map(|id| (*id).to_owned()).collect() }
+        ExhibitGroup { heading: heading.into(), exhibits: ids.iter().map(|id| (*id).to_owned()).collect() }
     }
 
     #[test]
@@ -98,7 +98,7 @@ mod tests {
     fn every_row_is_on_a_page_and_no_heading_ends_one() {
         let ids: Vec<String> = (0..40).map(|i| format!("work-{i}")).collect();
         let ids: Vec<&str> = ids.iter().map(String::as_str).collect();
-        let groups: Vec<Group> = ids.chunks(3).map(|ids| group("some", ids)).collect();
+        let groups: Vec<ExhibitGroup> = ids.chunks(3).map(|ids| group("some", ids)).collect();
         for height in [5.0, 20.0, 25.0, 31.0, 47.0, 1000.0] {
             let all = rows(&ids, &groups, 2);
             let split = paginate(all.clone(), height, 4.0, 10.0);

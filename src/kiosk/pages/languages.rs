@@ -1,7 +1,7 @@
 //! Languages offered to visitors, and the one they find first.
 
 use crate::pages::fonts;
-use crate::pages::ui_strings::Translations;
+use crate::pages::ui_strings::{Translations, UiStrings};
 use soffio_config::Config;
 use soffio_exhibit::{Label, Labels};
 
@@ -27,6 +27,15 @@ pub fn offered(
 pub fn default_language(offered: &[String], labels: &Labels, config: &Config) -> String {
     let wanted = [&config.languages.first, &labels.default_language];
     wanted.into_iter().find(|code| offered.contains(code)).or(offered.first()).cloned().unwrap_or_default()
+}
+
+/// The texts of the staff panel: in the configured language, else in the language that visitors find first, else in English.
+/// Languages in `without_glyphs` give way to English.
+pub fn staff_texts<'a>(translations: &'a Translations, config: &Config, without_glyphs: &[String]) -> &'a UiStrings {
+    let configured = [&config.staff.language, &config.languages.first];
+    let language = configured.into_iter().find(|code| !code.is_empty()).map_or("en", String::as_str);
+    let texts = translations.get(language);
+    if without_glyphs.iter().any(|code| code == texts.code()) { translations.get("en") } else { texts }
 }
 
 /// Codes of the kiosk's own languages that the fonts of this system cannot write.

@@ -12,7 +12,7 @@ use crate::pages::canvas::{Canvas, INK, PAPER, SMALL_TEXT_EM, SOFT_INK, VERMILIO
 use crate::pages::groups::{Row, heading, paginate, rows};
 use crate::pages::overlay::Scene;
 use crate::pages::ui_strings::TextId;
-use crate::venue::shelf::Work;
+use crate::venue::catalog::CatalogEntry;
 use crate::visitor::input::Request;
 use soffio_config::PAGE_CLOSES_S;
 
@@ -195,7 +195,7 @@ impl Menu {
                     for (column, &index) in exhibits.iter().enumerate() {
                         let at = pos2(area.left() + column as f32 * (size.x + gap), y);
                         tile(canvas, &scene.tiles[index], Rect::from_min_size(at, size));
-                        buttons.push((Rect::from_min_size(at, size), Request::Work(index)));
+                        buttons.push((Rect::from_min_size(at, size), Request::Exhibit(index)));
                     }
                     y += size.y + gap;
                 }
@@ -204,12 +204,12 @@ impl Menu {
         if self.page_count > 1 {
             let corner = pos2(area.right(), area.bottom());
             let next = canvas.icon_button(corner, "\u{203a}");
-            buttons.push((next, Request::Leaf(1)));
+            buttons.push((next, Request::Page(1)));
             let said = format!("{} / {}", self.page_index + 1, self.page_count);
             let at = pos2(next.left() - 0.5 * gap, next.center().y);
             let count = canvas.text(at, Align2::RIGHT_CENTER, &said, 0.85, SOFT_INK, f32::INFINITY);
             let before = canvas.icon_button(pos2(count.left() - 0.5 * gap, corner.y), "\u{2039}");
-            buttons.push((before, Request::Leaf(-1)));
+            buttons.push((before, Request::Page(-1)));
         }
     }
 }
@@ -293,17 +293,18 @@ fn settings_bar(canvas: &Canvas, scene: &Scene, buttons: &mut Vec<(Rect, Request
     let name = |id| texts.get(id);
     let mut items: Vec<(Item, Request)> = Vec::new();
     if let Some(reads_aloud) = scene.sound.reads_aloud {
-        items.push((Item::Label(name(TextId::ReadAloud), reads_aloud), Request::Speak));
+        items.push((Item::Label(name(TextId::ReadAloud), reads_aloud), Request::ReadAloud));
     }
     if scene.breath_input.has_microphone {
-        items.push((Item::Label(name(TextId::Microphone), scene.breath_input.microphone_on), Request::Listen));
+        items
+            .push((Item::Label(name(TextId::Microphone), scene.breath_input.microphone_on), Request::ToggleMicrophone));
     }
-    items.push((Item::Label(name(TextId::LargeText), settings.reading.large), Request::Large));
-    items.push((Item::Label(name(TextId::HighContrast), settings.reading.contrast), Request::Contrast));
+    items.push((Item::Label(name(TextId::LargeText), settings.text.large), Request::Large));
+    items.push((Item::Label(name(TextId::HighContrast), settings.text.contrast), Request::Contrast));
     items.push((Item::Label(name(TextId::PressOnce), settings.press_once), Request::PressOnce));
     items.push((Item::Label(name(TextId::Dwell), settings.dwell), Request::Dwell));
-    items.push((Item::Label(name(TextId::LessMotion), settings.calm), Request::Calm));
-    items.push((Item::Label(name(TextId::LookRound), settings.round), Request::Round));
+    items.push((Item::Label(name(TextId::LessMotion), settings.reduced_motion), Request::ReducedMotion));
+    items.push((Item::Label(name(TextId::LookRound), settings.look_around), Request::LookAround));
     if scene.sound.has_volume_control {
         items.push((Item::Icon("\u{2212}"), Request::Louder(-1)));
         items.push((Item::Icon("+"), Request::Louder(1)));
@@ -336,12 +337,12 @@ fn settings_bar(canvas: &Canvas, scene: &Scene, buttons: &mut Vec<(Rect, Request
 /// The exhibits as tiles. Each thumbnail is loaded into a texture once.
 pub fn tiles(
     context: &egui::Context,
-    exhibits: &[Work],
+    exhibits: &[CatalogEntry],
     pictures: &mut Vec<(String, egui::TextureHandle)>,
     on_show: &Path,
     language: &str,
 ) -> Vec<Tile> {
-    let tile = |exhibit: &Work| {
+    let tile = |exhibit: &CatalogEntry| {
         let known = pictures.iter().find(|(id, _)| *id == exhibit.id).map(|(_, texture)| texture.id());
         let picture = known.or_else(|| {
             let pixels = exhibit.thumbnail.as_ref()?;

@@ -6,7 +6,7 @@
 
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
-use soffio_config::Group;
+use soffio_config::ExhibitGroup;
 use soffio_exhibit::{Exhibit, Label, View};
 use soffio_math::{PI, tangents};
 use soffio_simulation::{BreathView, Snapshot};
@@ -15,10 +15,10 @@ use crate::pages::bidi::is_right_to_left;
 use crate::pages::canvas::{Canvas, HALO, INK, PAPER, SMALL_TEXT_EM, SOFT_INK, VERMILION};
 use crate::pages::menu::{Menu, Tile};
 use crate::pages::ui_strings::{TextId, Translations, UiStrings};
-use crate::venue::house::House;
-use crate::visitor::given;
+use crate::venue::state::VenueState;
+use crate::visitor::accessibility::AccessibilitySettings;
+use crate::visitor::breath_time;
 use crate::visitor::input::Request;
-use crate::visitor::needs::Needs;
 
 /// Time without a breath after which the invitation returns, s.
 const INVITE_AGAIN: f64 = 8.0;
@@ -77,7 +77,7 @@ pub struct Scene<'a> {
     /// Language of the invitation: attract mode goes through all languages.
     pub invitation_language: &'a str,
     /// Opening hours and cleaning: a closed kiosk is covered.
-    pub venue: &'a House,
+    pub venue: &'a VenueState,
     /// State of the breath input.
     pub breath_input: BreathInput,
     /// State of the sound.
@@ -87,13 +87,13 @@ pub struct Scene<'a> {
     /// Time until attract mode, s, in its last seconds.
     pub attract_in: Option<f64>,
     /// The visitor's accessibility settings.
-    pub accessibility: Needs,
+    pub accessibility: AccessibilitySettings,
     /// A pointer that presses by resting: its place (picture coordinates) and the share of the dwell time that is over.
     pub dwell: Option<([f64; 2], f64)>,
     /// The exhibits to choose from.
     pub tiles: &'a [Tile],
     /// Their groups.
-    pub groups: &'a [Group],
+    pub groups: &'a [ExhibitGroup],
     /// Codes of the languages offered.
     pub languages: &'a [String],
     /// Code of the current language.
@@ -123,7 +123,7 @@ impl Scene<'_> {
 
     /// The text that explains looking round the exhibit.
     pub fn how_to_look_round(&self) -> TextId {
-        if self.accessibility.once() { TextId::LookRoundPress } else { TextId::LookRoundDrag }
+        if self.accessibility.presses_once() { TextId::LookRoundPress } else { TextId::LookRoundDrag }
     }
 }
 
@@ -162,7 +162,7 @@ impl Overlay {
         }
         let code = scene.language;
         let Some(label) = scene.exhibit.labels.get(code) else { return Vec::new() };
-        let canvas = Canvas::new(painter, picture, scene.points_per_mm, scene.accessibility.reading);
+        let canvas = Canvas::new(painter, picture, scene.points_per_mm, scene.accessibility.text);
         let mut buttons = Vec::new();
         self.is_animating |= scene.attract_in.is_some() || scene.dwell.is_some() || menu.shows_countdown(scene.time);
         if menu.open {
@@ -173,11 +173,11 @@ impl Overlay {
         aim_ring(&canvas, picture, &scene.view, &scene.snapshot.breath);
         wall_label(&canvas, label, scene);
         captions(&canvas, label, scene);
-        if let Some(said) = given::said(label, scene.seconds_blown) {
+        if let Some(said) = breath_time::label_text(label, scene.seconds_blown) {
             canvas.text(canvas.picture.left_top(), Align2::LEFT_TOP, &said, 1.1, INK, longest_line(&canvas));
         }
         let texts = scene.texts();
-        let (said, opacity) = match (self.proposes_rest, scene.accessibility.round) {
+        let (said, opacity) = match (self.proposes_rest, scene.accessibility.look_around) {
             (true, _) => (texts.get(TextId::TakeARest).to_owned(), 1.0),
             (false, true) => (texts.get(scene.how_to_look_round()).to_owned(), 1.0),
             (false, false) => (invitation_text(scene), self.invitation as f32),
@@ -185,13 +185,13 @@ impl Overlay {
         paint_invitation(&canvas, &said, opacity);
         let more = canvas.label_button(canvas.picture.right_bottom(), texts.get(TextId::More), false);
         let mut last = more;
-        if scene.accessibility.round {
+        if scene.accessibility.look_around {
             last = canvas.label_button(
                 pos2(more.left() - 0.5 * canvas.em, more.bottom()),
                 texts.get(TextId::LookRound),
                 true,
             );
-            buttons.push((last, Request::Round));
+            buttons.push((last, Request::LookAround));
         }
         if let Some(left) = scene.attract_in {
             attract_countdown(
@@ -242,9 +242,9 @@ impl Overlay {
 /// Covers the picture while the museum is closed or the glass is cleaned. Returns whether it did.
 fn cover(painter: &Painter, scene: &Scene) -> bool {
     let all = painter.clip_rect();
-    if let Some(left) = scene.venue.cleans(scene.time) {
+    if let Some(left) = scene.venue.cleaning_left(scene.time) {
         painter.rect_filled(all, 0.0, PAPER);
-        let canvas = Canvas::new(painter, all, scene.points_per_mm, scene.accessibility.reading);
+        let canvas = Canvas::new(painter, all, scene.points_per_mm, scene.accessibility.text);
         canvas.text(
             all.center(),
             Align2::CENTER_BOTTOM,
@@ -276,7 +276,7 @@ fn invitation_text(scene: &Scene) -> String {
     let label = scene.exhibit.labels.get(scene.invitation_language);
     let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
     // Visitors who do not hold a key are not asked to.
-    if scene.accessibility.once() && !(scene.breath_input.is_active && scene.breath_input.is_allowed) {
+    if scene.accessibility.presses_once() && !(scene.breath_input.is_active && scene.breath_input.is_allowed) {
         return texts.get(scene.how_to_blow()).into();
     }
     if !scene.breath_input.is_allowed {

@@ -125,5 +125,5 @@ impl ReadAloud {
 
 /// Does the reading continue at this request? Only at requests that concern the reading.
 pub fn keeps_reading(request: Option<Request>) -> bool {
-    matches!(request, Some(Request::Speak | Request::Louder(_) | Request::Look(_)))
+    matches!(request, Some(Request::ReadAloud | Request::Louder(_) | Request::MoveFocus(_)))
 }

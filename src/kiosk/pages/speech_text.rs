@@ -40,17 +40,17 @@ pub fn button(request: Request, scene: &Scene) -> Vec<Utterance> {
     let switch = |id, on: bool| format!("{}: {}", texts.get(id), texts.get(if on { TextId::On } else { TextId::Off }));
     let text = match request {
         Request::Menu => name(TextId::Back),
-        Request::Work(index) => scene.tiles.get(index).map(|tile| tile.title.clone()).unwrap_or_default(),
-        Request::Leaf(by) => name(if by > 0 { TextId::NextPage } else { TextId::PreviousPage }),
+        Request::Exhibit(index) => scene.tiles.get(index).map(|tile| tile.title.clone()).unwrap_or_default(),
+        Request::Page(by) => name(if by > 0 { TextId::NextPage } else { TextId::PreviousPage }),
         Request::Louder(by) => name(if by > 0 { TextId::Louder } else { TextId::Softer }),
-        Request::Large => switch(TextId::LargeText, settings.reading.large),
-        Request::Contrast => switch(TextId::HighContrast, settings.reading.contrast),
+        Request::Large => switch(TextId::LargeText, settings.text.large),
+        Request::Contrast => switch(TextId::HighContrast, settings.text.contrast),
         Request::PressOnce => switch(TextId::PressOnce, settings.press_once),
         Request::Dwell => switch(TextId::Dwell, settings.dwell),
-        Request::Calm => switch(TextId::LessMotion, settings.calm),
-        Request::Round => switch(TextId::LookRound, settings.round),
-        Request::Listen => switch(TextId::Microphone, scene.breath_input.microphone_on),
-        Request::Speak => name(TextId::ReadAloud),
+        Request::ReducedMotion => switch(TextId::LessMotion, settings.reduced_motion),
+        Request::LookAround => switch(TextId::LookRound, settings.look_around),
+        Request::ToggleMicrophone => switch(TextId::Microphone, scene.breath_input.microphone_on),
+        Request::ReadAloud => name(TextId::ReadAloud),
         // A language is announced by its own name, in its own voice.
         Request::Language(index) => {
             let code = scene.languages.get(index).cloned().unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Numbers and lists of a curator's files, changed in their place: comments, order and units stay as they were written.
+//! Edits numbers and lists in a curator's files in place: comments, order and units stay.
 
 use std::collections::VecDeque;
 use std::io::Write as _;
@@ -8,14 +8,14 @@ use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
 
 use soffio_offline::atomic_file::AtomicFile;
 
-/// Tables of a sidecar whose numbers are no parameters of the work: words, and what plays when nobody is there.
+/// Tables of a sidecar whose numbers are no parameters of the exhibit: texts and the attract script.
 const NOT_OFFERED: [&str; 3] = ["label", "attract", "credit"];
-/// Keys whose numbers name things instead of measuring them.
+/// Keys whose numbers are names, not quantities.
 const NAMES: [&str; 2] = ["seed", "schema"];
-/// Changes that can be taken back.
+/// Number of changes that can be undone.
 const REMEMBERED: usize = 50;
 
-/// One step on the way to a value.
+/// One step of the path to a value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Into a table.
@@ -27,21 +27,21 @@ pub enum Step {
 /// A number of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Number {
-    /// The way to it.
+    /// Path to it.
     pub place: Vec<Step>,
-    /// The table it belongs to, as a curator calls it: `material.steel`, `constraint.nail cup-on-point`.
+    /// Readable name of its table: `material.steel`, `constraint.nail cup-on-point`.
     pub of: String,
     /// Its name there: `friction.coefficient`.
     pub name: String,
-    /// As it stands in the file.
+    /// Value in the file.
     pub value: f64,
-    /// The unit it is written with; empty where it is bare.
+    /// Unit in the file; empty for a bare number.
     pub unit: String,
-    /// Is it written without a point, as a count is?
+    /// Is it written as an integer?
     pub whole: bool,
 }
 
-/// All numbers of a sidecar that a curator may drag, in the order of the file.
+/// All numbers of a sidecar that a curator may change, in the order of the file. The error is a syntax error.
 pub fn numbers(text: &str) -> Result<Vec<Number>, String> {
     let document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     let mut found = Vec::new();
@@ -93,7 +93,7 @@ fn number(value: &Value) -> Option<(f64, String, bool)> {
     }
 }
 
-/// The table and the rest of a place in words: an array's tables are called by their `name` or `node`.
+/// Readable names of table and key: tables of an array are named by their `name` or `node`.
 fn called(document: &Table, place: &[Step]) -> (String, String) {
     let (mut of, mut table): (String, Option<&dyn TableLike>) = (String::new(), Some(document));
     let mut cut = place.len().min(2);
@@ -127,11 +127,11 @@ fn called(document: &Table, place: &[Step]) -> (String, String) {
     (of, rest.collect::<Vec<_>>().join("."))
 }
 
-/// The text with another number in this place, rounded to four digits.
+/// The text with another number at this place, rounded to four digits.
 pub fn with_number(text: &str, place: &[Step], value: f64) -> Result<String, String> {
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
-    let old = value_at(document.as_table_mut(), place).ok_or("it is not in the file any more")?;
-    let Some((_, unit, whole)) = number(old) else { return Err("it is no number any more".into()) };
+    let old = value_at(document.as_table_mut(), place).ok_or("the number is not in the file any more")?;
+    let Some((_, unit, whole)) = number(old) else { return Err("the value is no number any more".into()) };
     let value = four_digits(value);
     let new = match unit.as_str() {
         "" if whole => Value::Integer(Formatted::new(value.round() as i64)),
@@ -142,17 +142,17 @@ pub fn with_number(text: &str, place: &[Step], value: f64) -> Result<String, Str
     Ok(document.to_string())
 }
 
-/// A number as it is written: four digits are more than a hand can set.
+/// Rounds a number to four digits, more than a slider can set.
 pub fn four_digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// The text with another number at a key of a table; the table and the key are added where they are missing.
+/// The text with another number at a key of a table; missing tables and keys are added.
 pub fn with_key(text: &str, table: &str, key: &str, value: f64) -> Result<String, String> {
     with_value(text, table, key, |_| Value::Float(Formatted::new(four_digits(value))))
 }
 
-/// The text with another list of words at a key of a table. Words that stay keep the comments beside them.
+/// The text with another list of strings at a key of a table. Remaining entries keep their comments.
 pub fn with_list(text: &str, table: &str, key: &str, words: &[String]) -> Result<String, String> {
     with_value(text, table, key, |old| {
         let old = old.and_then(Value::as_array).cloned().unwrap_or_default();
@@ -170,7 +170,7 @@ pub fn with_list(text: &str, table: &str, key: &str, words: &[String]) -> Result
     })
 }
 
-/// In a list on one line the first word stands at the bracket and the others one space after their comma.
+/// Normalises the spaces of a list on one line.
 fn tidy(list: &mut Array) {
     let text = |value: &Value| {
         let decor = value.decor();
@@ -201,7 +201,7 @@ fn with_value(text: &str, table: &str, key: &str, new: impl Fn(Option<&Value>) -
     Ok(document.to_string())
 }
 
-/// Puts a value in the place of another, between the same comments.
+/// Replaces a value, keeping the comments around it.
 fn replace(old: &mut Value, mut new: Value) {
     *new.decor_mut() = old.decor().clone();
     *old = new;
@@ -217,7 +217,7 @@ fn value_at<'a>(table: &'a mut dyn TableLike, place: &[Step]) -> Option<&'a mut 
     }
 }
 
-/// Changes of files that can be taken back, the last one first.
+/// Undo history of changed files.
 #[derive(Debug, Default)]
 pub struct Changes {
     /// File, its text before, and after.
@@ -240,17 +240,17 @@ impl Changes {
         Ok(())
     }
 
-    /// How many can be taken back.
+    /// Number of changes that can be undone.
     pub fn count(&self) -> usize {
         self.done.len()
     }
 
-    /// Takes the last one back. A file that somebody else has changed since stays as it is.
+    /// Undoes the last change. A file that was changed otherwise since then is left alone, with an error.
     pub fn undo(&mut self) -> Result<(), String> {
         let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
         let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
         if now != after {
-            return Err(format!("{}: changed by somebody else since; it stays as it is", file.display()));
+            return Err(format!("{}: changed otherwise since; it stays as it is", file.display()));
         }
         write(&file, &before)
     }

@@ -1,8 +1,7 @@
-//! The way into what changes things: a PIN, tried on a thread of its own so that no picture waits for its hash.
+//! PIN gate of the staff panel. The PIN is checked on a thread of its own, so that no frame waits for its hash.
 //!
-//! After the n-th wrong PIN in a row no other is taken for 2ⁿ s, at most [`LONGEST_S`]: ten thousand PINs of four digits
-//! take four months. The count is kept while the panel is closed and while the configuration is read anew; a right PIN
-//! ends it.
+//! After the n-th wrong PIN in a row no other is accepted for 2ⁿ s, at most [`LONGEST_S`]: trying all PINs of four digits takes
+//! four months. The count is kept while the panel is closed and when the configuration is reloaded; a right PIN resets it.
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
@@ -11,21 +10,21 @@ use soffio_config::{DIGITS, Pin};
 /// Longest pause after a wrong PIN, s.
 pub const LONGEST_S: f64 = 1024.0;
 
-/// A PIN's hash and how often others were tried.
+/// State of the gate.
 #[derive(Debug, Default)]
 pub struct Gate {
     pin: Pin,
     entered: String,
     wrong: i32,
-    /// No PIN is taken before this time, s.
+    /// No PIN is accepted before this time, s.
     shut_until: f64,
-    /// The answer that is being worked out.
+    /// Pending result of a check.
     answer: Option<Receiver<bool>>,
     open: bool,
 }
 
 impl Gate {
-    /// With this PIN; another one than before shuts it.
+    /// Sets the PIN; a changed one shuts the gate.
     pub fn set(&mut self, pin: &Pin) {
         if *pin != self.pin {
             self.pin = pin.clone();
@@ -33,17 +32,17 @@ impl Gate {
         }
     }
 
-    /// Is there a PIN to ask for?
+    /// Is a PIN set?
     pub fn has_pin(&self) -> bool {
         self.pin.is_set()
     }
 
-    /// Was the right one given since it was shut?
+    /// Was the right PIN entered since the gate was shut?
     pub fn is_open(&self) -> bool {
         self.open
     }
 
-    /// Asks for the PIN again, the next time.
+    /// Shuts the gate: the PIN is needed again.
     pub fn shut(&mut self) {
         self.open = false;
         self.entered.clear();
@@ -65,7 +64,7 @@ impl Gate {
         self.wrong
     }
 
-    /// Wrong PINs from before a restart are not forgotten: their last pause begins again, whole, at `time`, s.
+    /// Restores the count of wrong PINs after a restart; their last pause begins again at `time`, s.
     pub fn remember(&mut self, wrong: i32, time: f64) {
         if wrong > 0 {
             self.wrong = wrong;
@@ -73,33 +72,33 @@ impl Gate {
         }
     }
 
-    /// What is left of the pause at `time`, s; `None` where a PIN is taken.
+    /// Time left of the pause at `time`, s; `None` where a PIN is accepted.
     pub fn pause(&self, time: f64) -> Option<f64> {
         Some(self.shut_until - time).filter(|left| *left > 0.0)
     }
 
-    /// One more digit; other characters are none.
+    /// Enters a digit; other characters are ignored.
     pub fn digit(&mut self, digit: char) {
         if digit.is_ascii_digit() && self.entered.len() < *DIGITS.end() {
             self.entered.push(digit);
         }
     }
 
-    /// Takes the last digit back.
+    /// Deletes the last digit.
     pub fn back(&mut self) {
         self.entered.pop();
     }
 
-    /// Tries what was entered, at `time`, s. Nothing is tried during a pause or while another one is checked.
+    /// Checks the entered PIN at `time`, s. Nothing happens during a pause or another check.
     pub fn enter(&mut self, time: f64) {
         if self.pause(time).is_some() || self.checks() || self.entered.is_empty() || !self.has_pin() {
             return;
         }
-        let (tell, answer) = channel();
+        let (sender, answer) = channel();
         let (pin, entered) = (self.pin.clone(), std::mem::take(&mut self.entered));
         let check = move || {
-            // Whoever shut the gate meanwhile does not wait for the answer.
-            let _ = tell.send(pin.matches(&entered));
+            // If the gate was shut meanwhile, the result is not needed.
+            let _ = sender.send(pin.matches(&entered));
         };
         match std::thread::Builder::new().name("soffio-pin".into()).spawn(check) {
             Ok(_) => self.answer = Some(answer),
@@ -107,27 +106,27 @@ impl Gate {
         }
     }
 
-    /// Takes in the answer when it has come.
-    pub fn tend(&mut self, time: f64) {
+    /// Takes the result of a finished check.
+    pub fn poll(&mut self, time: f64) {
         let Some(answer) = &self.answer else { return };
         let right = match answer.try_recv() {
             Ok(right) => right,
             Err(TryRecvError::Empty) => return,
-            // The thread died: nobody gets in by that.
+            // A crashed thread counts as a wrong PIN.
             Err(TryRecvError::Disconnected) => false,
         };
         self.answer = None;
-        self.judge(right, time);
+        self.record_answer(right, time);
     }
 
-    /// What an answer means, at `time`, s.
-    fn judge(&mut self, right: bool, time: f64) {
+    /// Applies the result of a check at `time`, s.
+    fn record_answer(&mut self, right: bool, time: f64) {
         self.open = right;
         self.wrong = if right { 0 } else { self.wrong.saturating_add(1) };
         if !right {
             let pause = pause(self.wrong);
             self.shut_until = time + pause;
-            tracing::warn!("a wrong PIN, {} in a row; the next is taken in {pause} s", self.wrong);
+            tracing::warn!("a wrong PIN, {} in a row; the next is accepted in {pause} s", self.wrong);
         }
     }
 }

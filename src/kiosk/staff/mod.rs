@@ -1,21 +1,21 @@
-//! The staff panel: whether the kiosk is well, and whatever a curator wants to see, hear, measure or change.
+//! The staff panel: status of the kiosk, and settings that a curator can view, try, measure or change.
 //!
-//! A key chord opens it (`staff.chord`), a PIN what is on it (`staff.pin`, [`gate`]). Where the site has set no PIN, the
-//! panel shows all and changes nothing; on somebody's desk, where Esc ends the kiosk anyway, it does both. It closes
-//! when nobody has touched it for a while, and asks for the PIN anew.
+//! A key chord opens it (`staff.chord`), and a PIN unlocks it (`staff.pin`, [`gate`]). Without a configured PIN the panel shows
+//! everything and changes nothing; in a window on a desk it can change settings too. It closes after a while without a touch,
+//! and then needs the PIN again.
 //!
-//! Pages report what staff want as a [`Wish`]; they change files of the site through [`edit`], and never the running
+//! Pages return the actions of staff as a [`StaffAction`]; they change files of the site through [`edit`], and never the running
 //! simulation.
 
+mod action;
 pub mod edit;
 pub mod gate;
 pub mod log;
 mod pages;
 mod panel;
-mod sight;
-mod wish;
+mod panel_input;
 
+pub use action::StaffAction;
 pub use pages::Page;
-pub use panel::Staff;
-pub use sight::{Sight, Vitals};
-pub use wish::Wish;
+pub use panel::StaffPanel;
+pub use panel_input::{PanelInput, WindowStats};

@@ -1,38 +1,39 @@
-//! The panel itself: the gate before its pages, their tabs, and what each page remembers.
+//! The panel itself: the PIN gate, the tabs of its pages, and the state of each page.
 
 use egui::{Ui, vec2};
 
 use crate::pages::canvas::INK;
+use crate::pages::ui_strings::TextId;
+use crate::staff::action::StaffAction;
 use crate::staff::edit::Changes;
 use crate::staff::gate::Gate;
 use crate::staff::pages::style::{BAD, width};
 use crate::staff::pages::{Page, bodies, exhibits, keypad, log, microphone, parameters, sound, status, test, wind};
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
+use crate::staff::panel_input::PanelInput;
 use crate::visitor::input::{Phase, Signal};
 use soffio_config::Config;
 use soffio_simulation::InspectionScope;
 
-/// How long a message stays in the corner of a desk, s.
+/// Time for which a message is shown in the corner of a window on a desk, s.
 const TOAST_S: f64 = 10.0;
-/// Height of what staff press, mm: half of a visitor's button, for a practised finger.
+/// Height of a button for staff, mm: half of a visitor's button.
 const PRESS_MM: f32 = 9.0;
 
-/// What may not be pressed is paler, and can be read all the same.
+/// Opacity of disabled buttons, which stay legible.
 const PALER: f32 = 0.87;
 
-/// The panel and what its pages remember.
+/// The panel and the state of its pages.
 #[derive(Default)]
-pub struct Staff {
+pub struct StaffPanel {
     open: bool,
     page: Page,
     gate: Gate,
-    /// Its share of the picture's width.
+    /// Width as a share of the picture's.
     share: f32,
-    /// Inputs that were seen, and when the last one came, s.
+    /// Count of inputs, and the time of the last one, s.
     touched: (u64, f64),
     toast: Option<(f64, String)>,
-    /// What became of the last change.
+    /// Result of the last change.
     said: Option<String>,
     changes: Changes,
     exhibits: exhibits::Exhibits,
@@ -44,7 +45,7 @@ pub struct Staff {
     log: log::LogPage,
 }
 
-impl Staff {
+impl StaffPanel {
     /// Opens the panel, or closes it and shuts its gate.
     pub fn toggle(&mut self) {
         let open = !self.open;
@@ -71,13 +72,13 @@ impl Staff {
         self.said = None;
     }
 
-    /// The way in.
+    /// The PIN gate.
     pub fn gate(&mut self) -> &mut Gate {
         &mut self.gate
     }
 
-    /// What the open page looks at.
-    pub fn look(&self, site: &Config) -> InspectionScope {
+    /// Inspection that the open page needs.
+    pub fn inspection(&self, site: &Config) -> InspectionScope {
         match self.page {
             _ if !self.open || site.staff.pin.is_set() && !self.gate.is_open() => InspectionScope::Nothing,
             Page::Bodies => InspectionScope::Bodies,
@@ -86,13 +87,13 @@ impl Staff {
         }
     }
 
-    /// Keeps a message for the corner of a desk; the log has it for the panel.
-    pub fn say(&mut self, time: f64, message: impl Into<String>) {
+    /// Shows a message in the corner of a window on a desk; on the panel it is in the log.
+    pub fn show_message(&mut self, time: f64, message: impl Into<String>) {
         self.toast = Some((time, message.into()));
     }
 
-    /// What a finger or the pointer does; says whether it does it to the panel, or to the test of the glass.
-    pub fn feel(&mut self, signal: &Signal) -> bool {
+    /// Handles a signal of finger or pointer. Returns whether the panel or the screen test captures it.
+    pub fn handle_signal(&mut self, signal: &Signal) -> bool {
         match signal {
             Signal::Pointer(at) => self.test.slide(None, *at),
             Signal::Button(down) if self.open => self.test.press(None, None, *down),
@@ -105,83 +106,80 @@ impl Staff {
         let at = match signal {
             Signal::Pointer(at) | Signal::Touch { at, .. } => Some(*at),
             Signal::Button(_) => self.test.pointer(),
-            Signal::Key(_) | Signal::Deserted => None,
+            Signal::Key(_) | Signal::FocusLost => None,
         };
         self.open && (self.page == Page::Test || at.is_some_and(|[x, _]| x >= 1.0 - f64::from(self.share)))
     }
 
-    /// Draws the panel when it is open, and a new message where staff may see it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight) -> Vec<Wish> {
-        let mut wishes = Vec::new();
-        self.gate.set(&sight.site.staff.pin);
+    /// Draws the panel if it is open, and a new message on a desk. Returns the actions of staff.
+    pub fn show(&mut self, ui: &mut Ui, input: &PanelInput) -> Vec<StaffAction> {
+        let mut actions = Vec::new();
+        self.gate.set(&input.site.staff.pin);
         if !self.open {
-            self.toast(ui, sight);
-            return wishes;
+            self.toast(ui, input);
+            return actions;
         }
-        let time = sight.vitals.time;
-        if self.touched.1 == f64::NEG_INFINITY || sight.activity != self.touched.0 {
-            self.touched = (sight.activity, time);
+        let time = input.vitals.time;
+        if self.touched.1 == f64::NEG_INFINITY || input.activity != self.touched.0 {
+            self.touched = (input.activity, time);
         }
-        if time - self.touched.1 > sight.site.staff.closes_s {
+        if time - self.touched.1 > input.site.staff.closes_s {
             self.close();
-            return wishes;
+            return actions;
         }
-        self.gate.tend(time);
-        // A picture that tests the display is all there is: a press turns it on, and nothing else.
+        self.gate.poll(time);
+        // A full-screen test picture covers the panel; a press shows the next one.
         if self.test.covers() {
-            self.test.paint(ui.ctx());
-            return wishes;
+            self.test.paint(ui.ctx(), input.texts);
+            return actions;
         }
         let width = width(ui.ctx());
         self.share = width / ui.ctx().content_rect().width();
         let panel = egui::Panel::right("staff").resizable(false).exact_size(width);
         panel.show(ui, |ui| {
-            ui.spacing_mut().interact_size.y = (PRESS_MM * sight.points_per_mm).clamp(18.0, 48.0);
+            ui.spacing_mut().interact_size.y = (PRESS_MM * input.points_per_mm).clamp(18.0, 48.0);
             ui.spacing_mut().item_spacing = vec2(8.0, 6.0);
             ui.visuals_mut().override_text_color = Some(INK);
             (ui.visuals_mut().disabled_alpha, ui.visuals_mut().weak_text_alpha) = (PALER, PALER);
             if self.gate.has_pin() && !self.gate.is_open() {
-                keypad::show(ui, &mut self.gate, time, sight.points_per_mm);
+                keypad::show(ui, &mut self.gate, time, input.points_per_mm, input.texts);
             } else {
-                self.pages(ui, sight, &mut wishes);
+                self.pages(ui, input, &mut actions);
             }
         });
         if self.page == Page::Test {
-            self.test.paint(ui.ctx());
+            self.test.paint(ui.ctx(), input.texts);
         }
-        wishes
+        actions
     }
 
-    fn pages(&mut self, ui: &mut Ui, sight: &Sight, wishes: &mut Vec<Wish>) {
+    fn pages(&mut self, ui: &mut Ui, input: &PanelInput, actions: &mut Vec<StaffAction>) {
         ui.horizontal_wrapped(|ui| {
             for page in Page::ALL {
-                if ui.selectable_label(self.page == page, page.name()).clicked() {
+                if ui.selectable_label(self.page == page, input.texts.get(page.title())).clicked() {
                     self.turn_to(page);
                 }
             }
         });
         ui.separator();
-        let may = self.gate.is_open() || !self.gate.has_pin() && sight.on_desk;
+        let may = self.gate.is_open() || !self.gate.has_pin() && input.on_desk;
         if !may {
-            ui.colored_label(
-                BAD,
-                "No PIN is set: this panel shows and changes nothing. `soffio pin` prints the line for [staff].",
-            );
+            ui.colored_label(BAD, input.texts.get(TextId::StaffNoPin));
         }
         let mut said = None;
-        let scroll = egui::ScrollArea::vertical().id_salt(self.page.name()).auto_shrink(false);
+        let scroll = egui::ScrollArea::vertical().id_salt(self.page as usize).auto_shrink(false);
         let bottom = if self.said.is_some() { 80.0 } else { 0.0 };
         let room = (ui.available_height() - bottom).max(100.0);
         scroll.max_height(room).show(ui, |ui| match self.page {
-            Page::Status => status::show(ui, sight, may, wishes),
-            Page::Exhibits => self.exhibits.show(ui, sight, may, wishes, &mut self.changes, &mut said),
-            Page::Bodies => self.bodies.show(ui, sight),
-            Page::Wind => wind::show(ui, sight),
-            Page::Sound => self.sound.show(ui, sight, may, wishes),
-            Page::Parameters => self.parameters.show(ui, sight, may, &mut self.changes, &mut said),
-            Page::Microphone => self.microphone.show(ui, sight, may, &mut self.changes, &mut said),
-            Page::Test => self.test.show(ui, sight, may, wishes),
-            Page::Log => self.log.show(ui, sight.log),
+            Page::Status => status::show(ui, input, may, actions),
+            Page::Exhibits => self.exhibits.show(ui, input, may, actions, &mut self.changes, &mut said),
+            Page::Bodies => self.bodies.show(ui, input),
+            Page::Wind => wind::show(ui, input),
+            Page::Sound => self.sound.show(ui, input, may, actions),
+            Page::Parameters => self.parameters.show(ui, input, may, &mut self.changes, &mut said),
+            Page::Microphone => self.microphone.show(ui, input, may, &mut self.changes, &mut said),
+            Page::Test => self.test.show(ui, input, may, actions),
+            Page::Log => self.log.show(ui, input.log, input.texts),
         });
         if said.is_some() {
             self.said = said;
@@ -192,9 +190,9 @@ impl Staff {
         }
     }
 
-    fn toast(&self, ui: &Ui, sight: &Sight) {
-        let Some((at, message)) = self.toast.as_ref().filter(|_| sight.on_desk) else { return };
-        if sight.vitals.time - at < TOAST_S {
+    fn toast(&self, ui: &Ui, input: &PanelInput) {
+        let Some((at, message)) = self.toast.as_ref().filter(|_| input.on_desk) else { return };
+        if input.vitals.time - at < TOAST_S {
             let corner = egui::Area::new(egui::Id::unique("toast")).anchor(egui::Align2::LEFT_TOP, [16.0, 16.0]);
             corner.show(ui.ctx(), |ui| {
                 egui::Frame::popup(ui.style()).show(ui, |ui| {

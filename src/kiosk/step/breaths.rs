@@ -1,18 +1,18 @@
-//! The log of breaths: when each began and ended, where it came from, how strong it was; of the sound itself nothing.
+//! Log of breaths: begin, end, source and strength of each; never the sound itself.
 //!
-//! Each source has its own breath, so that a microphone that answers the kiosk's own wind is seen beside the hold
-//! that made the wind. A held or scripted breath is over when its wind is, not when the key comes up.
+//! Each source has a breath of its own, so a false trigger of the microphone by the kiosk's own sound shows beside the key
+//! that caused it. A held or scripted breath ends with its wind, not when the key comes up.
 
 use std::fmt;
 
 use soffio_simulation::{BreathView, STEPS_PER_SECOND};
 
-/// Where a breath came from.
+/// Source of a breath.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// Somebody blew at the microphone, or at the one of the recording in its place.
+pub enum BreathSource {
+    /// The microphone, or a recording in its place.
     Microphone,
-    /// A button, finger or key is held.
+    /// A held button, finger or key.
     Hold,
     /// A breath controller: gamepad trigger, MIDI, OSC, serial line.
     Controller,
@@ -20,68 +20,70 @@ pub enum Source {
     Script,
 }
 
-const SOURCES: [Source; 4] = [Source::Microphone, Source::Hold, Source::Controller, Source::Script];
+const SOURCES: [BreathSource; 4] =
+    [BreathSource::Microphone, BreathSource::Hold, BreathSource::Controller, BreathSource::Script];
 
-/// What there is to say about one source.
+/// Begin or end of a breath.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Turn {
+pub enum BreathEvent {
     /// A breath began at this speed, m/s.
-    Begins(Source, f64),
+    Begins(BreathSource, f64),
     /// It ended.
     Ends {
-        /// Where it came from.
-        source: Source,
-        /// How long it was, s.
+        /// Its source.
+        source: BreathSource,
+        /// Its length, s.
         seconds: f64,
         /// Its highest speed, m/s.
         peak: f64,
     },
 }
 
-/// How many breaths began, by their source.
+/// Number of breaths begun, by source.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Blows([u64; SOURCES.len()]);
+pub struct BreathCounts([u64; SOURCES.len()]);
 
-impl Blows {
+impl BreathCounts {
     /// Counts a breath that begins.
-    pub fn note(&mut self, turn: &Turn) {
-        if let Turn::Begins(begun, _) = turn {
+    pub fn record(&mut self, turn: &BreathEvent) {
+        if let BreathEvent::Begins(begun, _) = turn {
             let counted = self.0.iter_mut().zip(SOURCES).find(|(_, source)| source == begun);
             counted.into_iter().for_each(|(count, _)| *count += 1);
         }
     }
 
     /// Each source with its count.
-    pub fn iter(&self) -> impl Iterator<Item = (Source, u64)> {
+    pub fn iter(&self) -> impl Iterator<Item = (BreathSource, u64)> {
         SOURCES.into_iter().zip(self.0)
     }
 }
 
-/// Tells from step to step where a breath begins and ends.
+/// Detects from step to step where a breath begins and ends.
 #[derive(Clone, Debug, Default)]
-pub struct Breaths {
-    /// Step of the begin and highest speed, for each of [`SOURCES`].
+pub struct BreathLog {
+    /// First step and highest speed of a running breath, for each of [`SOURCES`].
     running: [Option<(u64, f64)>; SOURCES.len()],
 }
 
-impl Breaths {
-    /// Takes notice of a step and what blew in it (a hold, and how hard a controller); what began or ended.
-    pub fn note(
+impl BreathLog {
+    /// Records a step: `hold` says whether a key or press blows, `strength` is that of a controller, 0 … 1. Returns the
+    /// breaths that begin or end.
+    pub fn record(
         &mut self,
         step: u64,
         breath: &BreathView,
         (hold, strength): (bool, f64),
         attracts: bool,
-    ) -> impl Iterator<Item = Turn> {
+    ) -> impl Iterator<Item = BreathEvent> {
         let from_microphone = breath.estimate.speed;
         let turns = std::array::from_fn::<_, { SOURCES.len() }, _>(|i| {
             let lasts = self.running[i].is_some();
             let speed = match SOURCES[i] {
-                Source::Microphone => from_microphone,
-                Source::Hold if hold || lasts && breath.speed > from_microphone => breath.speed,
-                Source::Controller if strength > 0.0 => breath.speed,
-                Source::Script if attracts => breath.speed,
-                Source::Hold | Source::Controller | Source::Script => 0.0,
+                BreathSource::Microphone => from_microphone,
+                BreathSource::Hold if hold || lasts && breath.speed > from_microphone => breath.speed,
+                BreathSource::Controller if strength > 0.0 => breath.speed,
+                BreathSource::Script if attracts => breath.speed,
+                BreathSource::Hold | BreathSource::Controller | BreathSource::Script => 0.0,
             };
             match &mut self.running[i] {
                 Some((_, peak)) if speed > 0.0 => {
@@ -90,9 +92,9 @@ impl Breaths {
                 }
                 None if speed > 0.0 => {
                     self.running[i] = Some((step, speed));
-                    Some(Turn::Begins(SOURCES[i], speed))
+                    Some(BreathEvent::Begins(SOURCES[i], speed))
                 }
-                running => running.take().map(|(began, peak)| Turn::Ends {
+                running => running.take().map(|(began, peak)| BreathEvent::Ends {
                     source: SOURCES[i],
                     seconds: (step - began) as f64 / STEPS_PER_SECOND as f64,
                     peak,
@@ -103,7 +105,7 @@ impl Breaths {
     }
 }
 
-impl fmt::Display for Source {
+impl fmt::Display for BreathSource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Microphone => "microphone",
@@ -114,7 +116,7 @@ impl fmt::Display for Source {
     }
 }
 
-impl fmt::Display for Turn {
+impl fmt::Display for BreathEvent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Begins(source, speed) => write!(f, "a breath begins ({source}): {speed:.1} m/s"),
@@ -137,28 +139,28 @@ mod tests {
 
     #[test]
     fn each_source_begins_and_ends_by_itself() {
-        let mut breaths = Breaths::default();
+        let mut breaths = BreathLog::default();
         let mut turns =
-            |step, view: BreathView, hold| breaths.note(step, &view, (hold, 0.0), false).collect::<Vec<_>>();
+            |step, view: BreathView, hold| breaths.record(step, &view, (hold, 0.0), false).collect::<Vec<_>>();
         assert_eq!(turns(0, view(0.0, 0.0), false), []);
-        assert_eq!(turns(1, view(9.0, 0.0), true), [Turn::Begins(Source::Hold, 9.0)]);
+        assert_eq!(turns(1, view(9.0, 0.0), true), [BreathEvent::Begins(BreathSource::Hold, 9.0)]);
         // The microphone answers in the middle of the hold.
-        assert_eq!(turns(100, view(9.0, 2.0), true), [Turn::Begins(Source::Microphone, 2.0)]);
-        let end = |source, seconds, peak| Turn::Ends { source, seconds, peak };
-        assert_eq!(turns(121, view(9.0, 0.0), true), [end(Source::Microphone, 0.0875, 2.0)]);
+        assert_eq!(turns(100, view(9.0, 2.0), true), [BreathEvent::Begins(BreathSource::Microphone, 2.0)]);
+        let end = |source, seconds, peak| BreathEvent::Ends { source, seconds, peak };
+        assert_eq!(turns(121, view(9.0, 0.0), true), [end(BreathSource::Microphone, 0.0875, 2.0)]);
         // The wind of a hold outlasts the key.
         assert_eq!(turns(200, view(5.0, 0.0), false), []);
-        assert_eq!(turns(241, view(0.0, 0.0), false), [end(Source::Hold, 1.0, 9.0)]);
+        assert_eq!(turns(241, view(0.0, 0.0), false), [end(BreathSource::Hold, 1.0, 9.0)]);
     }
 
     #[test]
     fn the_script_is_no_visitor() {
-        let mut breaths = Breaths::default();
-        let begins: Vec<_> = breaths.note(0, &view(3.0, 0.0), (false, 0.0), true).collect();
-        assert_eq!(begins, [Turn::Begins(Source::Script, 3.0)]);
+        let mut breaths = BreathLog::default();
+        let begins: Vec<_> = breaths.record(0, &view(3.0, 0.0), (false, 0.0), true).collect();
+        assert_eq!(begins, [BreathEvent::Begins(BreathSource::Script, 3.0)]);
         // A visitor's breath ends the show within the step.
-        let both: Vec<_> = breaths.note(1, &view(4.0, 4.0), (false, 0.0), false).collect();
-        assert_eq!(both[0], Turn::Begins(Source::Microphone, 4.0));
-        assert!(matches!(both[1], Turn::Ends { source: Source::Script, .. }), "{both:?}");
+        let both: Vec<_> = breaths.record(1, &view(4.0, 4.0), (false, 0.0), false).collect();
+        assert_eq!(both[0], BreathEvent::Begins(BreathSource::Microphone, 4.0));
+        assert!(matches!(both[1], BreathEvent::Ends { source: BreathSource::Script, .. }), "{both:?}");
     }
 }

@@ -1,72 +1,72 @@
-//! Captions: which of the exhibit's sounds can be heard now, for those who cannot hear them.
+//! Captions of the exhibit's sounds, for visitors who cannot hear them.
 //!
-//! A sound is captioned from when it is set off until two seconds after; what slides or blows, for as long as it does.
+//! A caption is shown for two seconds after a sound starts. Sliding and wind are captioned for as long as they last.
 
 use soffio_exhibit::{Exhibit, SoundBinding, SoundTrigger};
 use soffio_simulation::STEPS_PER_SECOND;
 use soffio_sound::SoundCommand;
 
-/// A caption stays so long, s: long enough to be read.
+/// Time for which a caption is shown, s: long enough to be read.
 const STAYS: f64 = 2.0;
-/// Slower hits are not heard over a room, m/s.
+/// Least speed of an audible impact, m/s.
 const HIT: f32 = 0.02;
-/// Slower winds are not heard over a room, m/s.
+/// Least speed of an audible wind, m/s.
 const WIND: f32 = 0.8;
-/// Captions at once.
+/// Most captions at once.
 const MOST: usize = 2;
 
-/// When each sound of an exhibit was last heard.
+/// Last step of each sound of an exhibit.
 #[derive(Clone, Debug, Default)]
 pub struct Captions {
     /// Step, by the exhibit's sounds.
-    heard: Vec<Option<u64>>,
-    /// Which slide.
-    slides: Vec<bool>,
+    played_at: Vec<Option<u64>>,
+    /// Sounds of sliding that are on.
+    sliding: Vec<bool>,
 }
 
 impl Captions {
-    /// Takes in what sounds in a step.
-    pub fn note(&mut self, exhibit: &Exhibit, sounds: &[SoundCommand], step: u64) {
-        self.heard.resize(exhibit.sounds.len(), None);
-        self.slides.resize(exhibit.sounds.len(), false);
+    /// Records the sounds of a step.
+    pub fn update(&mut self, exhibit: &Exhibit, sounds: &[SoundCommand], step: u64) {
+        self.played_at.resize(exhibit.sounds.len(), None);
+        self.sliding.resize(exhibit.sounds.len(), false);
         for command in sounds {
             for (index, sound) in exhibit.sounds.iter().enumerate() {
                 match (command, sound.on) {
                     (SoundCommand::Strike(strike), SoundTrigger::Impact)
                         if plays(sound, strike.instrument) && strike.speed > HIT =>
                     {
-                        self.heard[index] = Some(step);
+                        self.played_at[index] = Some(step);
                     }
                     (SoundCommand::Slide(slide), SoundTrigger::Slide) if plays(sound, slide.instrument) => {
-                        self.slides[index] = slide.force > 0.0 && slide.speed > 0.0;
+                        self.sliding[index] = slide.force > 0.0 && slide.speed > 0.0;
                     }
                     (SoundCommand::Wind(wind), SoundTrigger::Wind) if wind.speed > WIND => {
-                        self.heard[index] = Some(step);
+                        self.played_at[index] = Some(step);
                     }
                     _ => {}
                 }
             }
         }
-        for (heard, _) in self.heard.iter_mut().zip(&self.slides).filter(|(_, slides)| **slides) {
-            *heard = Some(step);
+        for (played_at, _) in self.played_at.iter_mut().zip(&self.sliding).filter(|(_, sliding)| **sliding) {
+            *played_at = Some(step);
         }
     }
 
-    /// Keys of the captions to be read at a step, the newest first.
+    /// Keys of the captions to show at a step, the newest first.
     pub fn shown(&self, exhibit: &Exhibit, step: u64) -> Vec<String> {
         let stays = (STAYS * STEPS_PER_SECOND as f64) as u64;
         let mut now: Vec<(u64, &str)> = Vec::new();
-        for (sound, heard) in exhibit.sounds.iter().zip(&self.heard) {
-            let (Some(heard), Some(key)) = (heard, sound.caption.as_deref()) else { continue };
-            if step.saturating_sub(*heard) > stays {
+        for (sound, played_at) in exhibit.sounds.iter().zip(&self.played_at) {
+            let (Some(played_at), Some(key)) = (played_at, sound.caption.as_deref()) else { continue };
+            if step.saturating_sub(*played_at) > stays {
                 continue;
             }
             match now.iter_mut().find(|(_, other)| *other == key) {
-                Some((newest, _)) => *newest = (*newest).max(*heard),
-                None => now.push((*heard, key)),
+                Some((newest, _)) => *newest = (*newest).max(*played_at),
+                None => now.push((*played_at, key)),
             }
         }
-        now.sort_by_key(|(heard, _)| std::cmp::Reverse(*heard));
+        now.sort_by_key(|(played_at, _)| std::cmp::Reverse(*played_at));
         now.into_iter().take(MOST).map(|(_, key)| key.to_owned()).collect()
     }
 }

@@ -1,52 +1,52 @@
-//! What a step is told as levels: the newest value counts.
+//! Continuous inputs of a step: the newest value counts.
 
 use crate::visitor::gesture::Press;
 use soffio_simulation::{InspectionScope, MotionMode};
 
-/// What the visitor does and how the window stands, as levels: each value holds until a newer one overwrites it, and reading
-/// it twice means nothing more than reading it once. What happens once is a [`KioskCommand`](super::command::KioskCommand).
+/// Continuous inputs of visitor and window: each value holds until a newer one overwrites it. Events are
+/// [`KioskCommand`](super::command::KioskCommand)s.
 #[derive(Clone, Debug, Default)]
 pub struct Controls {
-    /// Where the breath is aimed, picture coordinates; `None` is the centre.
+    /// Aim of the breath, picture coordinates; `None` is the centre.
     pub aim: Option<[f64; 2]>,
-    /// The last place that was named instead of pointed at, and how many were named so far.
+    /// The last aim set by a controller (OSC), and how many were set so far.
     pub named: Option<([f64; 2], u64)>,
-    /// Where a stick or the arrow keys point, right and down, −1 … 1 each, times their speed, picture heights/s.
+    /// Deflection of stick or arrow keys, right and down, −1 … 1 each, times their speed, picture heights/s.
     pub stick: [f64; 2],
     /// Is a blow held by a key, a switch or a controller?
     pub hold: bool,
-    /// The pointer's button and the fingers that are down: each of them blows, or takes the sculpture by the hand.
+    /// The pointer's button and the fingers that are down: each of them blows or grabs the sculpture.
     pub presses: Vec<Press>,
-    /// Times that the key that blows went down.
+    /// Number of presses of the key that blows.
     pub keyed: u64,
     /// Does a press begin the breath and the next one end it?
     pub press_once: bool,
-    /// Does the visitor look round the work? Then presses beside it, sticks and arrow keys turn the camera.
-    pub round: bool,
-    /// Less motion: no change of scene in which parts fly together, gentler attract mode.
-    pub calm: bool,
-    /// How hard a breath controller is blown, 0 … 1.
+    /// Does the visitor look around the exhibit? Then presses beside it, sticks and arrow keys turn the camera.
+    pub look_around: bool,
+    /// Reduced motion: no assembly animation, gentler attract mode.
+    pub reduced_motion: bool,
+    /// Strength of a breath controller, 0 … 1.
     pub strength: f64,
     /// Has the visitor switched the microphone off?
-    pub deaf: bool,
+    pub ignore_microphone: bool,
     /// Width over height of the picture.
     pub aspect: f64,
     /// Inputs so far.
     pub activity: u64,
-    /// What moves the exhibit; `None` is its own choice.
+    /// Solver of the exhibit's motion; `None` is its own choice.
     pub mode: Option<MotionMode>,
-    /// Nobody is heard, whatever they do: the house is closed, or the glass is cleaned.
+    /// All input is ignored: the venue is closed, or the screen is cleaned.
     pub inert: bool,
-    /// The house is closed: no sound, and no microphone.
+    /// The venue is closed: no sound, and no microphone.
     pub closed: bool,
-    /// What staff look at.
+    /// Inspection that staff look at.
     pub look: InspectionScope,
 }
 
 impl Controls {
-    /// The same with nobody there.
+    /// The same without any input of a visitor.
     pub fn without_visitor(&self) -> Self {
-        let Self { aspect, activity, mode, inert, calm, keyed, .. } = *self;
-        Self { aspect, activity, mode, inert, calm, keyed, ..Self::default() }
+        let Self { aspect, activity, mode, inert, reduced_motion, keyed, .. } = *self;
+        Self { aspect, activity, mode, inert, reduced_motion, keyed, ..Self::default() }
     }
 }

@@ -1,5 +1,5 @@
-//! The automatic choice: where dynamics takes longer than an exhibit's budget, position-based motion takes over if it is
-//! clearly cheaper, until dynamics fits again. Poses and velocities go over as they are, so nobody sees the change.
+//! Automatic choice of the solver: where dynamics takes longer than an exhibit's budget, position-based motion takes over if
+//! it is clearly cheaper, until dynamics fits again. Poses and velocities are kept, so the change is invisible.
 //!
 //! ```text
 //! cost of a mode   = median of its last 5 steps, s of processor time
@@ -8,26 +8,25 @@
 //! back             when position-based motion costs more than 0.7 of what dynamics did, or after a while, to try
 //! ```
 //!
-//! A median of five is over the budget from the third late step on, and one or two slow steps, which are the machine's
-//! doing, never move it. What position-based motion costs is found by a trial of five steps. A trial that fails, of
-//! either mode, makes the next one wait twice as long, as a machine that is too slow stays so; what position-based
-//! motion cost in a failed trial is remembered, and it is not tried until dynamics costs clearly more or the wait is
-//! over.
+//! A median of five exceeds the budget from the third late step on; one or two slow steps, caused by the system, never change
+//! it. The cost of position-based motion is measured in a trial of five steps. A failed trial of either mode doubles the wait
+//! before the next one, because a slow machine stays slow. The cost of position-based motion in a failed trial is stored, and
+//! there is no new trial until dynamics costs clearly more or the wait is over.
 //!
-//! The governor only looks: its answer goes into the step as an input, so that a run repeats with the same answers.
+//! The governor's choice is an input of the step, so that a recorded run repeats it.
 
 use soffio_exhibit::Motion;
 use soffio_simulation::{MotionMode, STEPS_PER_SECOND};
 
 /// Steps whose median is a mode's cost.
 const WINDOW: usize = 5;
-/// Position-based motion is chosen if it costs at most this share of dynamics: less would not be worth the difference.
+/// Largest cost of position-based motion, as a share of that of dynamics, at which it is chosen.
 const CHEAPER: f64 = 0.7;
-/// Share of the budget to which dynamics keeps when it fits.
+/// Share of the budget below which dynamics fits well.
 const COMFORT: f64 = 0.8;
-/// Seconds before a trial that follows a failed one, at first and at most.
+/// Shortest and longest wait before a trial that follows a failed one, s.
 const WAITS: (f64, f64) = (1.0, 64.0);
-/// Seconds of dynamics within the budget after which failures are forgotten.
+/// Time of dynamics within the budget after which failed trials are forgotten, s.
 const PROVEN: f64 = 30.0;
 
 /// The last steps of a mode.
@@ -43,29 +42,29 @@ impl Costs {
         self.steps += 1;
     }
 
-    /// Median; steps that have not been cost nothing.
+    /// Median cost, s; missing steps count as 0.
     fn median(&self) -> f64 {
         let mut sorted = self.last;
         sorted.sort_unstable_by(f64::total_cmp);
         sorted[WINDOW / 2]
     }
 
-    /// Has every step of the window been?
+    /// Is the window full?
     fn known(&self) -> bool {
         self.steps >= WINDOW
     }
 }
 
-/// Chooses what moves an exhibit.
+/// Chooses the solver of an exhibit.
 #[derive(Clone, Debug)]
 pub struct Governor {
     budget: Option<f64>,
     position_based: bool,
     dynamics: Costs,
     positions: Costs,
-    /// What dynamics cost when it was given up, s.
+    /// Cost of dynamics at the last change to position-based motion, s.
     given_up: f64,
-    /// What position-based motion cost when it last turned out too dear, s.
+    /// Cost of position-based motion in its last failed trial, s.
     too_dear: Option<f64>,
     /// Steps since the last change.
     since: u64,
@@ -75,7 +74,7 @@ pub struct Governor {
 }
 
 impl Governor {
-    /// For an exhibit; an exhibit that chose for itself is left alone.
+    /// For an exhibit; one with a fixed solver never changes.
     pub fn new(motion: Motion) -> Self {
         let budget = match motion {
             Motion::Auto { budget } => Some(budget),
@@ -94,7 +93,7 @@ impl Governor {
         }
     }
 
-    /// What moves the next step; `None` leaves it to the exhibit.
+    /// Solver of the next step; `None` is the exhibit's own.
     pub fn mode(&self) -> Option<MotionMode> {
         self.position_based.then_some(MotionMode::PositionBased)
     }
@@ -104,8 +103,8 @@ impl Governor {
         self.switches
     }
 
-    /// Records what a step cost, s of processor time. Returns whether the choice changed.
-    pub fn note(&mut self, cost: f64) -> bool {
+    /// Records the cost of a step, s of processor time. Returns whether the choice changed.
+    pub fn record(&mut self, cost: f64) -> bool {
         let Some(budget) = self.budget else { return false };
         self.since += 1;
         let lasted = self.since as f64 / STEPS_PER_SECOND as f64;
@@ -131,7 +130,7 @@ impl Governor {
 
     fn change(&mut self) -> bool {
         if self.position_based {
-            // Whatever ends it, the next trial comes later.
+            // The wait doubles in any case.
             self.wait = (2.0 * self.wait).min(WAITS.1);
             self.dynamics = Costs::default();
         } else {
@@ -160,7 +159,7 @@ mod tests {
         (0..(seconds * STEPS_PER_SECOND as f64) as usize)
             .filter(|_| {
                 let moves = governor.mode().is_none();
-                governor.note(if moves { dynamics } else { positions });
+                governor.record(if moves { dynamics } else { positions });
                 moves
             })
             .count()
@@ -172,16 +171,16 @@ mod tests {
         for _ in 0..100 {
             // The machine's doing: a slow step or two, again and again.
             for cost in [1e-3, 0.1, 1e-3, 1e-3, 1e-3, 0.1, 0.1, 1e-3, 1e-3, 1e-3] {
-                governor.note(cost);
+                governor.record(cost);
                 assert_eq!(governor.mode(), None);
             }
         }
-        let answers = [3e-3, 3e-3, 3e-3].map(|cost| governor.note(cost));
+        let answers = [3e-3, 3e-3, 3e-3].map(|cost| governor.record(cost));
         assert_eq!(answers, [false, false, true]);
         assert_eq!((governor.mode(), governor.switches()), (Some(MotionMode::PositionBased), 1));
         // From the very first step on, too: an assembly that is late from its beginning.
         let mut governor = Governor::new(Motion::Auto { budget: BUDGET });
-        assert_eq!([3e-3, 3e-3, 3e-3].map(|cost| governor.note(cost)), [false, false, true]);
+        assert_eq!([3e-3, 3e-3, 3e-3].map(|cost| governor.record(cost)), [false, false, true]);
     }
 
     #[test]

@@ -1,33 +1,33 @@
-//! What the window hands to the simulation: the newest [`Controls`], and a bounded queue of commands, each taken once.
+//! Input from the window to the simulation: the newest [`Controls`], and a bounded queue of commands.
 //!
-//! Both lie behind one lock, held for a copy, because they belong together: a press that is gone and the lift that ended it
-//! reach the same step. Nobody waits. The simulation empties the queue 240 times a second, so it is full only when the
-//! simulation hangs; then the oldest commands give way to the newest, which keep their order, and are counted.
+//! Both are behind one lock, held for a copy only, so that a press that ended and its lift reach the same step. No side waits.
+//! The simulation empties the queue 240 times a second, so it is full only when the simulation hangs. Then the oldest commands
+//! are dropped and counted.
 
 use std::collections::VecDeque;
 
 use crate::step::command::{Batch, KioskCommand};
 use crate::step::controls::Controls;
 
-/// Commands that can wait.
+/// Capacity of the queue, commands.
 pub const CAPACITY: usize = 256;
 
-/// What waits for the next step.
+/// Input of the next step.
 #[derive(Debug)]
 pub struct Inbox {
-    /// The levels; write what has changed.
+    /// The continuous inputs; overwrite those that change.
     pub controls: Controls,
     waiting: VecDeque<KioskCommand>,
     dropped: u64,
 }
 
 impl Inbox {
-    /// Nothing waits.
+    /// An empty queue.
     pub fn new(controls: Controls) -> Self {
         Self { controls, waiting: VecDeque::with_capacity(CAPACITY), dropped: 0 }
     }
 
-    /// Adds a command for the next step. In a full queue the oldest one gives way.
+    /// Adds a command for the next step. A full queue drops its oldest command.
     pub fn send(&mut self, command: KioskCommand) {
         if self.waiting.len() == CAPACITY {
             self.waiting.pop_front();
@@ -36,14 +36,14 @@ impl Inbox {
         self.waiting.push_back(command);
     }
 
-    /// The levels as they are now, and all commands that wait, which wait no longer.
+    /// Takes the controls and all waiting commands.
     pub fn take(&mut self) -> (Controls, Batch) {
         let mut batch = Batch::default();
         self.waiting.drain(..).for_each(|command| batch.add(command));
         (self.controls.clone(), batch)
     }
 
-    /// Commands that gave way so far.
+    /// Commands dropped so far.
     pub fn dropped(&self) -> u64 {
         self.dropped
     }
@@ -58,13 +58,13 @@ mod tests {
     fn levels_stay_and_commands_are_taken_once() {
         let mut inbox = Inbox::new(Controls::default());
         inbox.controls.hold = true;
-        inbox.send(KioskCommand::Chirp);
+        inbox.send(KioskCommand::SelfTest);
         inbox.send(KioskCommand::Simulation(Command::Reset));
         let (controls, batch) = inbox.take();
-        assert!(controls.hold && batch.chirp && batch.commands == [Command::Reset]);
+        assert!(controls.hold && batch.self_test && batch.commands == [Command::Reset]);
         let (controls, batch) = inbox.take();
         assert!(controls.hold, "nobody has let go");
-        assert!(!batch.chirp && batch.commands.is_empty(), "done is done");
+        assert!(!batch.self_test && batch.commands.is_empty(), "done is done");
     }
 
     #[test]
@@ -77,7 +77,7 @@ mod tests {
         assert_eq!(inbox.dropped(), MORE as u64);
         let newest: Vec<Command> = (MORE..CAPACITY + MORE).map(|number| Command::Assemble(number as u64)).collect();
         assert_eq!(inbox.take().1.commands, newest);
-        inbox.send(KioskCommand::Chirp);
+        inbox.send(KioskCommand::SelfTest);
         assert_eq!(inbox.dropped(), MORE as u64, "there is room again");
     }
 }

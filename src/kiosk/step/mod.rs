@@ -1,16 +1,16 @@
-//! One simulation step of the kiosk: who blows, visitor, recording or attract script, and what becomes of the exhibit.
+//! One simulation step of the kiosk: the source of the breath (visitor, recording or attract script), and the exhibit's motion.
 //!
-//! A function of its state and its inputs. It never reads a clock, a device, a file or a window, so that a recorded run
+//! It depends only on its state and inputs. It never reads a clock, a device, a file or a window, so that a recorded run
 //! repeats to the bit.
 
 pub mod breaths;
 pub mod captions;
 pub mod command;
 pub mod controls;
+pub mod frame_interpolation;
 pub mod governor;
+pub mod idle_detection;
 pub mod inbox;
-pub mod moments;
+pub mod instruments;
 mod pointing;
 pub mod stage;
-pub mod stillness;
-pub mod voice;

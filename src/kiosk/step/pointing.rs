@@ -1,10 +1,10 @@
-//! Where the breath is aimed: the pointer or finger puts the aim down, a place that is named puts it there too, a stick
-//! or the arrow keys push it on from wherever it is. Whoever moved last counts.
+//! Aim of the breath. Pointer, finger and controllers (OSC) set it; a stick or the arrow keys move it from where it is. The
+//! last input that moved counts.
 
 use crate::step::controls::Controls;
 use soffio_simulation::{CENTRE, STEPS_PER_SECOND};
 
-/// The aim over time.
+/// State of the aim.
 #[derive(Clone, Debug, Default)]
 pub struct Pointing {
     at: Option<[f64; 2]>,
@@ -13,8 +13,7 @@ pub struct Pointing {
 }
 
 impl Pointing {
-    /// The aim of this step, picture coordinates; `None` is the centre. `stick` is what pushes it on, right and down,
-    /// picture heights/s.
+    /// The aim of this step, picture coordinates; `None` is the centre. `stick` moves it, right and down, picture heights/s.
     pub fn step(&mut self, controls: &Controls, stick: [f64; 2]) -> Option<[f64; 2]> {
         if controls.aim != self.pointer {
             self.pointer = controls.aim;

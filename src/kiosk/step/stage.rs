@@ -1,5 +1,5 @@
-//! What the kiosk does in one simulation step, without a clock, a window or a device: who blows, visitor, recording
-//! or attract script, and what becomes of the exhibit.
+//! The kiosk's simulation step, without a clock, a window or a device: selects the source of the breath (visitor, recording or
+//! attract script), and moves the exhibit.
 //!
 //! Invariant: with a recording, no visitor and no attract mode the run is bit-identical to `soffio play` with the
 //! same recording, exhibit, settings and picture shape; both feed the steps through [`WavFeed`].
@@ -15,15 +15,15 @@ use soffio_simulation::{
 };
 use soffio_sound::SoundCommand;
 
-use crate::attract::script::Attract;
+use crate::attract::script::AttractMode;
 use crate::step::controls::Controls;
 use crate::step::pointing::Pointing;
-use crate::visitor::gesture::{Gestures, Lift, Touch};
-use crate::visitor::orbit::{self, Orbit, Way};
+use crate::visitor::gesture::{Gestures, Lift, PressInput};
+use crate::visitor::orbit::{self, Orbit, OrbitInput};
 
-/// What a step was told, but for breath and hands.
+/// Inputs of a step for a record, except breath and grabs.
 #[derive(Clone, Debug, Default)]
-struct Told {
+struct RecordedInput {
     pointer: Option<[f64; 2]>,
     aspect: f64,
     turn: [f64; 2],
@@ -31,40 +31,40 @@ struct Told {
     commands: Vec<Command>,
 }
 
-/// How much slower the breaths of the attract script are where less motion is wanted.
+/// Factor on the breaths of the attract script with reduced motion.
 const GENTLER: f64 = 0.5;
 
-/// The exhibit on show. A clone goes on from the same moment by itself.
+/// The exhibit on show. A clone continues independently from the same state.
 #[derive(Clone)]
 pub struct Stage {
     simulation: Simulation,
     steps: u64,
     recording: Option<WavFeed>,
-    attract: Option<Attract>,
+    attract: Option<AttractMode>,
     idle_s: f64,
     activity: u64,
     pointing: Pointing,
     gestures: Gestures,
     orbit: Orbit,
-    /// How far it goes, for a picture of that shape; `None` until somebody asks.
+    /// Limits of the orbit camera for a picture of this shape; `None` until it is needed.
     leeway: Option<(f64, OrbitLimits)>,
     holds: bool,
-    /// What the last step was told beside breath and hands.
-    told: Told,
-    calm: bool,
-    /// What the next step begins with: another exhibit gathers its parts.
-    called: Option<Command>,
-    /// Presses that have come up, and commands, that the next step takes: that step alone.
+    /// Inputs of the last step, except breath and grabs.
+    recorded: RecordedInput,
+    reduced_motion: bool,
+    /// Command before the next step: the assembly animation of another exhibit.
+    pending_command: Option<Command>,
+    /// Presses that have come up, and commands, for the next step alone.
     lifts: Vec<Lift>,
     commands: Vec<Command>,
     snapshot: Snapshot,
 }
 
 impl Stage {
-    /// The exhibit at rest. `recording` stands in for the microphone; `idle_s` is the time without a visitor until
-    /// attract mode, `None` switches it off.
+    /// The exhibit at rest. `recording` replaces the microphone. `idle_s` is the time without a visitor until attract mode, s;
+    /// `None` switches it off.
     pub fn new(exhibit: Arc<Exhibit>, settings: Settings, recording: Option<WavFeed>, idle_s: Option<f64>) -> Self {
-        let attract = idle_s.map(|idle| Attract::new(exhibit.attract.clone(), idle));
+        let attract = idle_s.map(|idle| AttractMode::new(exhibit.attract.clone(), idle));
         let simulation = Simulation::new(exhibit, settings);
         let snapshot = simulation.snapshot();
         Self {
@@ -79,26 +79,26 @@ impl Stage {
             orbit: Orbit::default(),
             leeway: None,
             holds: false,
-            told: Told::default(),
-            calm: false,
-            called: None,
+            recorded: RecordedInput::default(),
+            reduced_motion: false,
+            pending_command: None,
             lifts: Vec::new(),
             commands: Vec::new(),
             snapshot,
         }
     }
 
-    /// A press has come up: the next step takes it in, once.
+    /// Adds a press that has come up, for the next step.
     pub fn lift(&mut self, lift: Lift) {
         self.lifts.push(lift);
     }
 
-    /// A command that goes before the next step, once, after those of the attract script.
+    /// Adds a command for the next step; it is applied after those of the attract script.
     pub fn command(&mut self, command: Command) {
         self.commands.push(command);
     }
 
-    /// Advances by one step. `microphone` is what was heard since the last; a recording goes before it.
+    /// Advances by one step. `microphone` holds the samples since the last step; a recording takes precedence.
     pub fn step(&mut self, controls: &Controls, microphone: Option<Microphone>) {
         let nobody = controls.inert.then(|| controls.without_visitor());
         let controls = nobody.as_ref().unwrap_or(controls);
@@ -106,39 +106,39 @@ impl Stage {
         if controls.inert {
             lifts.clear();
         }
-        // The detector's word of the step before: a breath is an input like any other.
+        // The estimate of the step before: a breath is an input like any other.
         let breathing = self.snapshot.breath.estimate.speed > 0.0;
         let pressed = controls.hold || !controls.presses.is_empty() || !lifts.is_empty();
-        self.calm = controls.calm;
-        // Whoever cleans is here too, though not to play: attract mode waits.
+        self.reduced_motion = controls.reduced_motion;
+        // Attract mode waits while the screen is cleaned.
         let visitor = breathing || pressed || controls.inert || controls.activity != self.activity;
         self.activity = controls.activity;
         let fastest = |fastest: f64, body: &RigidBody| fastest.max(body.velocity.length());
         let moves = self.simulation.bodies().iter().fold(0.0, fastest);
         let mut cue = self.attract.as_mut().map(|attract| attract.step(visitor, moves)).unwrap_or_default();
-        if self.calm {
+        if self.reduced_motion {
             cue.commands.iter_mut().for_each(gentler);
         }
         cue.commands.append(&mut self.commands);
-        // Whoever blows or presses does not wait until the parts have gathered, and whoever wants less motion does not see it.
-        let impatient = (breathing || pressed || self.calm) && self.simulation.assembly_distance().is_some();
-        cue.commands.extend(self.called.take().or(impatient.then_some(Command::Reset)));
+        // A breath, a press, or reduced motion ends the assembly animation.
+        let impatient = (breathing || pressed || self.reduced_motion) && self.simulation.assembly_distance().is_some();
+        cue.commands.extend(self.pending_command.take().or(impatient.then_some(Command::Reset)));
         let simulation = &mut self.simulation;
         let takeable = |at| simulation.hit_test(at, controls.aspect);
-        let touch = Touch {
+        let press_input = PressInput {
             presses: &controls.presses,
             lifts: &lifts,
             hold: controls.hold,
             keyed: controls.keyed,
-            once: controls.press_once,
-            round: controls.round,
+            press_once: controls.press_once,
+            look_around: controls.look_around,
             aspect: controls.aspect,
         };
-        let blows = self.gestures.step(&touch, takeable);
+        let blows = self.gestures.step(&press_input, takeable);
         lifts.clear();
         self.lifts = lifts;
-        // Whoever looks round turns with the stick; the aim stays.
-        let stick = if controls.round { [0.0; 2] } else { controls.stick };
+        // While looking around, the stick turns the camera and the aim stays.
+        let stick = if controls.look_around { [0.0; 2] } else { controls.stick };
         let aim = self.pointing.step(controls, stick);
         if cue.active {
             self.pointing.forget();
@@ -146,22 +146,23 @@ impl Stage {
         }
         self.holds = controls.hold && !controls.press_once || blows.is_some() || self.gestures.latched();
 
-        // Where less motion is wanted, the script does not lead the camera.
-        let led = cue.look.filter(|_| !self.calm).map_or(Way::Home, Way::Led);
-        let turn = self.turn(controls, if cue.active || !controls.round { led } else { self.pulled(controls) });
-        self.told = Told {
+        // With reduced motion the script does not move the camera.
+        let led = cue.look.filter(|_| !self.reduced_motion).map_or(OrbitInput::Home, OrbitInput::Scripted);
+        let turn =
+            self.turn(controls, if cue.active || !controls.look_around { led } else { self.visitor_orbit(controls) });
+        self.recorded = RecordedInput {
             pointer: if cue.active { cue.aim } else { blows.or(aim) },
             aspect: controls.aspect,
             turn,
             mode: controls.mode,
             commands: cue.commands,
         };
-        let Told { pointer, aspect, turn, mode, ref commands } = self.told;
+        let RecordedInput { pointer, aspect, turn, mode, ref commands } = self.recorded;
         self.simulation.step(&StepInput {
             microphone: self.recording.as_mut().map(WavFeed::microphone).or(microphone),
             ignore_microphone: controls.inert,
             hold: self.holds,
-            pointer_grabs: self.gestures.hands(),
+            pointer_grabs: self.gestures.grabs(),
             strength: controls.strength,
             pointer,
             aspect,
@@ -173,59 +174,59 @@ impl Stage {
         self.snapshot = self.simulation.snapshot();
     }
 
-    /// What the visitor's pulls and pushes turn the camera by.
-    fn pulled(&self, controls: &Controls) -> Way {
-        let [right, up] = self.gestures.pulled();
-        // A stick to the right or down leads the eye there.
+    /// Camera turn by the visitor's pulls and stick.
+    fn visitor_orbit(&self, controls: &Controls) -> OrbitInput {
+        let [right, up] = self.gestures.camera_turn();
+        // A stick to the right or down moves the camera there.
         let [x, y] = controls.stick.map(|speed| orbit::TURN * speed / STEPS_PER_SECOND as f64);
-        Way::Pulled([right + x, up - y])
+        OrbitInput::Pulled([right + x, up - y])
     }
 
-    /// Goes on with the camera.
-    fn turn(&mut self, controls: &Controls, way: Way) -> [f64; 2] {
+    /// Advances the orbit camera.
+    fn turn(&mut self, controls: &Controls, way: OrbitInput) -> [f64; 2] {
         let leeway = match self.leeway {
             Some((aspect, leeway)) if aspect == controls.aspect => leeway,
-            // It has never been away: there is nothing to measure.
-            None if way == Way::Home => return [0.0; 2],
+            // The camera never moved, so the leeway is not needed.
+            None if way == OrbitInput::Home => return [0.0; 2],
             _ => self.simulation.exhibit().orbit_limits(controls.aspect),
         };
         self.leeway = Some((controls.aspect, leeway));
-        self.orbit.step(way, &leeway, self.calm)
+        self.orbit.step(way, &leeway, self.reduced_motion)
     }
 
-    /// Shows another exhibit, whose parts gather themselves, or the same one, reloaded, from its start. `clock` is the time of
-    /// day now, s after midnight, to which it sets its hands where it has any.
+    /// Shows another exhibit with its assembly animation, or the same one, reloaded, from its start. `clock` is the present time
+    /// of day, s after midnight, to which an exhibit with hands sets them.
     pub fn swap(&mut self, exhibit: Arc<Exhibit>, clock: Option<f64>) {
         let another = exhibit.id != self.exhibit().id;
-        self.called = (another && !self.calm).then_some(Command::Assemble(self.steps));
+        self.pending_command = (another && !self.reduced_motion).then_some(Command::Assemble(self.steps));
         self.gestures.unlatch();
         (self.orbit, self.leeway) = (Orbit::default(), None);
         self.attract = self.attract.take().map(|before| {
-            let next = Attract::new(exhibit.attract.clone(), self.idle_s);
-            if before.is_active() { next.go_on() } else { next }
+            let next = AttractMode::new(exhibit.attract.clone(), self.idle_s);
+            if before.is_active() { next.starting_now() } else { next }
         });
         self.begin(exhibit, Settings { clock, ..*self.simulation.settings() });
     }
 
-    /// Lets an exhibit begin, before the same room.
+    /// Starts an exhibit. The detector is kept, with its estimate of the noise floor.
     fn begin(&mut self, exhibit: Arc<Exhibit>, settings: Settings) {
         self.simulation = Simulation::new(exhibit, settings).adopt_detector(&mut self.simulation);
         self.snapshot = self.simulation.snapshot();
     }
 
-    /// Takes over changed settings, with which the exhibit begins anew, and another idle time.
-    pub fn settle(&mut self, settings: Settings, idle_s: Option<f64>) {
+    /// Takes over changed settings, which restart the exhibit, and another idle time.
+    pub fn reconfigure(&mut self, settings: Settings, idle_s: Option<f64>) {
         let before = Settings { clock: settings.clock, ..*self.simulation.settings() };
         if settings != before {
             self.begin(self.exhibit().clone(), settings);
         }
         if idle_s != self.attract.as_ref().map(|_| self.idle_s) {
-            self.attract = idle_s.map(|idle| Attract::new(self.exhibit().attract.clone(), idle));
+            self.attract = idle_s.map(|idle| AttractMode::new(self.exhibit().attract.clone(), idle));
             self.idle_s = idle_s.unwrap_or_default();
         }
     }
 
-    /// Looks closer at the present moment.
+    /// Inspects the present state.
     pub fn inspect(&mut self, look: InspectionScope) -> Inspection {
         self.simulation.inspect(look)
     }
@@ -235,7 +236,7 @@ impl Stage {
         self.steps
     }
 
-    /// The present moment.
+    /// Snapshot of the last step.
     pub fn snapshot(&self) -> &Snapshot {
         &self.snapshot
     }
@@ -255,16 +256,16 @@ impl Stage {
         self.simulation.exhibit()
     }
 
-    /// What the last step was told; the breath is in the snapshot's speed.
-    pub fn told(&self) -> StepInput<'_> {
-        let Told { pointer, aspect, turn, mode, ref commands } = self.told;
+    /// Inputs of the last step, for a record; the breath is in the snapshot's speed.
+    pub fn recorded_input(&self) -> StepInput<'_> {
+        let RecordedInput { pointer, aspect, turn, mode, ref commands } = self.recorded;
         StepInput {
             pointer,
             aspect,
             turn,
             mode,
             commands,
-            pointer_grabs: self.gestures.hands(),
+            pointer_grabs: self.gestures.grabs(),
             ..StepInput::default()
         }
     }
@@ -274,9 +275,9 @@ impl Stage {
         self.holds
     }
 
-    /// Works that visitors have swiped on so far, less those that they have swiped back.
-    pub fn turned(&self) -> i64 {
-        self.gestures.turned()
+    /// Swipes forward so far, less those backward.
+    pub fn swipes(&self) -> i64 {
+        self.gestures.swipes()
     }
 
     /// Sounds of the last step.
@@ -291,20 +292,20 @@ impl Stage {
 
     /// Text key that attract mode shows; `None` while visitors are here.
     pub fn attract_text(&self) -> Option<&str> {
-        self.attract.as_ref().and_then(Attract::text)
+        self.attract.as_ref().and_then(AttractMode::text)
     }
 
-    /// Rounds of the attract script that have ended, and the seconds until attract mode begins, where they are few.
-    pub fn attract_course(&self) -> (u32, Option<f64>) {
+    /// Finished rounds of the attract script, and during the countdown the time until attract mode begins, s.
+    pub fn attract_progress(&self) -> (u32, Option<f64>) {
         self.attract.as_ref().map_or((0, None), |attract| (attract.rounds(), attract.begins_in()))
     }
 
     /// Is attract mode playing?
     pub fn attracts(&self) -> bool {
-        self.attract.as_ref().is_some_and(Attract::is_active)
+        self.attract.as_ref().is_some_and(AttractMode::is_active)
     }
 
-    /// One word that says whether two runs are the same run.
+    /// Hash of the state: equal for identical runs.
     pub fn state_hash(&self) -> u64 {
         self.simulation.state_hash()
     }

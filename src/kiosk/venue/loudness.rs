@@ -1,6 +1,6 @@
-//! How loud the kiosk is: what visitors and staff ask for, what the house allows, and what is heard in the end.
+//! Loudness control: volume steps of visitors, mute and night mode of staff, and the exposure limit.
 //!
-//! Looks once a second: a change of volume by a visitor is heard at once, everything else within that second.
+//! It updates once a second. A change of volume by a visitor takes effect at once, everything else within a second.
 
 use std::time::{Duration, Instant};
 
@@ -11,19 +11,19 @@ use soffio_devices::audio::Knobs;
 use soffio_math::from_decibels;
 use soffio_sound::{Exposure, Volume, VolumeSettings};
 
-/// Between two looks.
-const LOOK: Duration = Duration::from_secs(1);
+/// Time between two updates.
+const UPDATE_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Who says whether it is night.
+/// What decides whether it is night.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum NightBy {
     /// The configured hours.
     #[default]
     Hours,
-    /// Staff: it is.
+    /// Staff: night.
     Night,
-    /// Staff: it is not.
+    /// Staff: day.
     Day,
 }
 
@@ -48,23 +48,23 @@ impl NightBy {
     }
 }
 
-/// What is asked of the loudness, as the window tells it; taken with each step.
+/// Requested changes of the loudness, collected by the window; a step takes all of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wishes {
-    /// Steps louder.
+pub struct VolumeRequests {
+    /// Volume steps up; negative: down.
     pub louder: i32,
-    /// Muted, or not, as ordered from afar, whatever it was before.
+    /// Mute or unmute by a remote command.
     pub muted: Option<bool>,
-    /// Presses of the staff's mute, after that.
+    /// Presses of the staff's mute key after that command.
     pub mutes: u32,
     /// Presses of the staff's night key.
     pub nights: u32,
-    /// The last visitor has left, and takes those steps along.
+    /// The visitor has left: volume steps are reset.
     pub leaves: bool,
 }
 
-impl Wishes {
-    /// Adds what is asked for next.
+impl VolumeRequests {
+    /// Adds the next requests.
     pub fn add(&mut self, next: Self) {
         self.louder += next.louder;
         if next.muted.is_some() {
@@ -76,28 +76,28 @@ impl Wishes {
     }
 }
 
-/// The loudness as staff see it.
+/// State of the loudness, for the staff panel and the metrics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct View {
+pub struct LoudnessStatus {
     /// Volume, dB.
     pub volume_db: f64,
-    /// A visitor's steps.
+    /// Volume steps of the visitor.
     pub steps: i32,
     /// Muted by staff?
     pub muted: bool,
     /// Is it night?
     pub night: bool,
-    /// By whom.
+    /// What decides it.
     pub by: NightBy,
-    /// Taken off because the last minute was too loud, dB.
+    /// Attenuation because the last minute was too loud, dB.
     pub eased_db: f64,
     /// A-weighted level of the last minute and of the day, dB of a full-scale sine; −∞ for silence.
     pub level_db: [f64; 2],
-    /// The same at the visitor's ear, dB(A), where the kiosk is calibrated.
+    /// The same at the listening position, dB(A), where the kiosk is calibrated.
     pub laeq_db: [Option<f64>; 2],
 }
 
-/// The kiosk's loudness.
+/// Loudness control of the kiosk.
 pub struct Loudness {
     volume: Volume,
     exposure: Exposure,
@@ -108,12 +108,12 @@ pub struct Loudness {
     attracts: bool,
     closed: bool,
     looked: Option<Instant>,
-    /// Energy and time at the last look.
+    /// Energy and time at the last update.
     before: (f64, f64),
 }
 
 impl Loudness {
-    /// As a visitor finds it.
+    /// The state that every visitor finds.
     pub fn new(volume: VolumeSettings, hours: Hours, silent_attract: bool) -> Self {
         Self {
             volume: Volume::new(volume),
@@ -129,31 +129,31 @@ impl Loudness {
         }
     }
 
-    /// Takes over changed settings. What was heard counts on; `anew` says that the loudspeaker's own count begins again.
-    pub fn settle(&mut self, volume: VolumeSettings, hours: Hours, silent_attract: bool, anew: bool) {
+    /// Takes over changed settings. The measured exposure is kept; `restarted` says that the output counts from zero again.
+    pub fn reconfigure(&mut self, volume: VolumeSettings, hours: Hours, silent_attract: bool, restarted: bool) {
         let (by, exposure) = (self.by, std::mem::take(&mut self.exposure));
-        let before = if anew { (0.0, 0.0) } else { self.before };
-        let mut kept = self.volume.clone();
-        kept.reconfigure(volume);
-        *self = Self { volume: kept, by, exposure, before, ..Self::new(volume, hours, silent_attract) };
+        let before = if restarted { (0.0, 0.0) } else { self.before };
+        let mut former = self.volume.clone();
+        former.reconfigure(volume);
+        *self = Self { volume: former, by, exposure, before, ..Self::new(volume, hours, silent_attract) };
     }
 
-    /// Heeds what is asked for, and turns the knobs; `closed` silences them.
-    pub fn tend(&mut self, wishes: Wishes, (attracts, closed): (bool, bool), knobs: &Knobs) {
-        let asked = wishes != Wishes::default() || attracts != self.attracts || closed != self.closed;
+    /// Applies the requests and sets the volume; it is silent while the venue is `closed`.
+    pub fn update(&mut self, requests: VolumeRequests, (attracts, closed): (bool, bool), knobs: &Knobs) {
+        let requested = requests != VolumeRequests::default() || attracts != self.attracts || closed != self.closed;
         self.closed = closed;
-        let due = self.looked.is_none_or(|at| at.elapsed() >= LOOK);
-        if !(asked || due) {
+        let due = self.looked.is_none_or(|at| at.elapsed() >= UPDATE_INTERVAL);
+        if !(requested || due) {
             return;
         }
-        self.volume.step(wishes.louder);
+        self.volume.step(requests.louder);
         let muted = self.volume.is_muted();
-        if (wishes.muted.unwrap_or(muted) != (wishes.mutes % 2 == 1)) != muted {
+        if (requests.muted.unwrap_or(muted) != (requests.mutes % 2 == 1)) != muted {
             self.volume.toggle_mute();
-            tracing::info!("{}", if self.volume.is_muted() { "muted by staff" } else { "sounds again" });
+            tracing::info!("{}", if self.volume.is_muted() { "muted by staff" } else { "unmuted by staff" });
         }
-        (0..wishes.nights).for_each(|_| self.by = self.by.next());
-        if wishes.leaves {
+        (0..requests.nights).for_each(|_| self.by = self.by.next());
+        if requests.leaves {
             self.volume.reset();
         }
         self.attracts = attracts;
@@ -163,8 +163,8 @@ impl Loudness {
         knobs.set_night(self.night);
     }
 
-    /// Sets the volume anew at the next call: something else has set it meanwhile.
-    pub fn forget(&mut self) {
+    /// Sets the volume again at the next update: something else has set it meanwhile.
+    pub fn invalidate(&mut self) {
         self.looked = None;
     }
 
@@ -177,7 +177,7 @@ impl Loudness {
             NightBy::Day => false,
         };
         if night != self.night {
-            tracing::info!("the sound of the {}", if night { "night" } else { "day" });
+            tracing::info!("sound mode: {}", if night { "night" } else { "day" });
         }
         self.night = night;
         if !due {
@@ -194,10 +194,10 @@ impl Loudness {
         }
     }
 
-    /// As staff see it.
-    pub fn view(&self) -> View {
+    /// The present state.
+    pub fn status(&self) -> LoudnessStatus {
         let level_db = [self.exposure.minute(), self.exposure.day()];
-        View {
+        LoudnessStatus {
             volume_db: self.volume.db(),
             steps: self.volume.steps(),
             muted: self.volume.is_muted(),
@@ -220,39 +220,43 @@ mod tests {
             VolumeSettings { default_db: -6.0, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
         let knobs = Knobs::new(1.0);
         let mut loudness = Loudness::new(settings, Hours::default(), false);
-        let tend = |loudness: &mut Loudness, wishes| loudness.tend(wishes, (false, false), &knobs);
-        tend(&mut loudness, Wishes { louder: 2, mutes: 1, ..Wishes::default() });
-        assert!(loudness.view().muted && loudness.view().steps == 2);
+        let update = |loudness: &mut Loudness, requests| loudness.update(requests, (false, false), &knobs);
+        update(&mut loudness, VolumeRequests { louder: 2, mutes: 1, ..VolumeRequests::default() });
+        assert!(loudness.status().muted && loudness.status().steps == 2);
 
-        loudness.settle(VolumeSettings { default_db: -9.0, ..settings }, Hours::default(), true, false);
-        tend(&mut loudness, Wishes { louder: 1, ..Wishes::default() });
-        assert!(loudness.view().muted, "nobody has unmuted it");
-        assert_eq!((loudness.view().steps, loudness.view().volume_db), (1, -6.0), "the site's new volume, one step up");
+        loudness.reconfigure(VolumeSettings { default_db: -9.0, ..settings }, Hours::default(), true, false);
+        update(&mut loudness, VolumeRequests { louder: 1, ..VolumeRequests::default() });
+        assert!(loudness.status().muted, "nobody has unmuted it");
+        assert_eq!(
+            (loudness.status().steps, loudness.status().volume_db),
+            (1, -6.0),
+            "the site's new volume, one step up"
+        );
 
-        tend(&mut loudness, Wishes { leaves: true, ..Wishes::default() });
-        assert!(loudness.view().muted && loudness.view().steps == 0, "the next visitor finds the site's volume");
+        update(&mut loudness, VolumeRequests { leaves: true, ..VolumeRequests::default() });
+        assert!(loudness.status().muted && loudness.status().steps == 0, "the next visitor finds the site's volume");
     }
 
     #[test]
     fn the_last_word_on_the_sound_counts() {
-        let mut wishes = Wishes::default();
-        let order = |muted| Wishes { muted: Some(muted), ..Wishes::default() };
-        let press = Wishes { mutes: 1, louder: 1, ..Wishes::default() };
-        [press, order(true), order(true)].into_iter().for_each(|next| wishes.add(next));
-        assert_eq!(wishes, Wishes { muted: Some(true), louder: 1, ..Wishes::default() });
-        wishes.add(press);
-        assert_eq!(wishes, Wishes { muted: Some(true), mutes: 1, louder: 2, ..Wishes::default() });
+        let mut requests = VolumeRequests::default();
+        let order = |muted| VolumeRequests { muted: Some(muted), ..VolumeRequests::default() };
+        let press = VolumeRequests { mutes: 1, louder: 1, ..VolumeRequests::default() };
+        [press, order(true), order(true)].into_iter().for_each(|next| requests.add(next));
+        assert_eq!(requests, VolumeRequests { muted: Some(true), louder: 1, ..VolumeRequests::default() });
+        requests.add(press);
+        assert_eq!(requests, VolumeRequests { muted: Some(true), mutes: 1, louder: 2, ..VolumeRequests::default() });
 
         let settings =
             VolumeSettings { default_db: -6.0, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
         let knobs = Knobs::new(1.0);
         let mut loudness = Loudness::new(settings, Hours::default(), false);
-        let mut tend = |wishes| {
-            loudness.tend(wishes, (false, false), &knobs);
-            loudness.view().muted
+        let mut update = |requests| {
+            loudness.update(requests, (false, false), &knobs);
+            loudness.status().muted
         };
-        assert!(tend(order(true)) && tend(order(true)), "ordered twice it stays muted");
-        assert!(!tend(wishes), "muted from afar, and sounds again by staff");
-        assert!(!tend(order(false)));
+        assert!(update(order(true)) && update(order(true)), "ordered twice it stays muted");
+        assert!(!update(requests), "muted from afar, and sounds again by staff");
+        assert!(!update(order(false)));
     }
 }

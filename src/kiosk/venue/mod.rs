@@ -1,12 +1,12 @@
-//! The venue: opening hours and cleaning, loudness, the exhibits on offer, the configuration file, and the acoustic
+//! The venue: opening hours and cleaning, loudness, the catalog of exhibits, the configuration file, and the audio
 //! self-test of foam, loudspeaker and microphone.
 //!
-//! Says what the house allows. It never draws and never steps the simulation.
+//! It decides what visitors may do at this time. It never draws and never steps the simulation.
 
-pub mod care;
-pub mod chirp;
-pub mod chirping;
-pub mod house;
+pub mod catalog;
 pub mod loudness;
-pub mod shelf;
+pub mod self_test;
+pub mod self_test_run;
 pub mod site;
+pub mod state;
+pub mod sweep;

@@ -1,5 +1,5 @@
-//! The site's configuration while the kiosk runs: its file is watched, a good new one is taken over, a broken one is
-//! refused with its diagnostics and the last good one stays.
+//! The site's configuration while the kiosk runs. Its file is watched: a valid change is taken over, an invalid one is
+//! rejected with its problems, and the last valid configuration stays.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, channel};
@@ -8,24 +8,24 @@ use std::time::Duration;
 use notify_debouncer_full::notify::{Error, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
-use crate::venue::shelf::{QUIET, is_change};
-use soffio_config::{AudioSettings, Config, ControllerSettings, Hours};
+use crate::venue::catalog::{QUIET, is_change};
+use soffio_config::{AudioSettings, Config, ControllerSettings, Hours, LoadedConfig};
 use soffio_exhibit as exhibit;
 use soffio_simulation::Settings;
 use soffio_sound::{ReverbSpec, VolumeSettings};
 
-/// What the simulation thread needs of the configuration.
+/// Part of the configuration that the simulation thread needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// Constant over a run of the exhibit.
+    /// Settings that are constant over a run of the exhibit.
     pub settings: Settings,
     /// Devices.
     pub audio: AudioSettings,
-    /// What the sounds are heard in; `None` is the open air.
-    pub room: Option<ReverbSpec>,
+    /// Reverberation of the sounds; `None` is the open air.
+    pub reverb: Option<ReverbSpec>,
     /// How loud it may be.
     pub volume: VolumeSettings,
-    /// When the house is quiet.
+    /// Hours of quieter sound.
     pub night: Hours,
     /// Does attract mode play without a sound?
     pub silent_attract: bool,
@@ -38,12 +38,12 @@ pub struct Site {
 }
 
 impl Site {
-    /// Of a configuration, with the seed of all that is random.
+    /// Of a configuration, with the seed of all random numbers.
     pub fn new(config: &Config, seed: u64) -> Self {
         Self {
             settings: config.simulation_settings(seed),
             audio: config.audio.clone(),
-            room: config.room.spec(),
+            reverb: config.reverb.spec(),
             volume: config.volume_settings(),
             night: config.night.clone(),
             silent_attract: config.attract.silent,
@@ -54,19 +54,19 @@ impl Site {
     }
 }
 
-/// What the command line says over the file, now and after every change.
+/// Options of the command line that take precedence over the file, now and after every change.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Overrides {
     /// A window on a desk.
     pub windowed: bool,
     /// Never attract mode.
     pub no_attract: bool,
-    /// Safe mode: nothing from outside but the visitor's breath and hand.
+    /// Safe mode: the only inputs are the microphone, pointer and keys.
     pub safe: bool,
 }
 
 impl Overrides {
-    /// The configuration as the run has it.
+    /// The configuration with these options applied.
     pub fn apply(self, mut config: Config) -> Config {
         config.exhibits.folder = exhibit::exhibits_folder(&config.exhibits.folder);
         config.screen.fullscreen &= !self.windowed;
@@ -79,56 +79,56 @@ impl Overrides {
     }
 }
 
-/// What became of a change.
+/// Result of a change of the file.
 #[derive(Debug)]
-pub enum News {
-    /// A good one.
-    Good(Box<Config>),
-    /// A broken one: all that is wrong with it.
-    Bad(String),
+pub enum ConfigEvent {
+    /// A valid configuration, with warnings where the file has old names.
+    Loaded(Box<LoadedConfig>),
+    /// An invalid configuration: all its problems.
+    Rejected(String),
 }
 
-/// A configuration file that is watched for as long as this lives.
-pub struct SiteFile {
-    /// Where it is.
+/// Watches a configuration file for as long as it lives.
+pub struct ConfigWatcher {
+    /// The file.
     pub path: PathBuf,
-    news: Receiver<News>,
+    events: Receiver<ConfigEvent>,
     /// Ends the watching when dropped.
     _watcher: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
 }
 
-impl SiteFile {
+impl ConfigWatcher {
     /// Watches a file. Where that is impossible the reason is logged.
     pub fn watch(path: &Path) -> Self {
-        let (tell, news) = channel();
+        let (sender, events) = channel();
         let file = path.to_path_buf();
-        let look = move || {
-            let told = match Config::load(Some(&file)) {
-                Ok((config, _)) => News::Good(Box::new(config)),
-                Err(error) => News::Bad(error.to_string()),
+        let read = move || {
+            let event = match Config::load(Some(&file)) {
+                Ok(loaded) => ConfigEvent::Loaded(Box::new(loaded)),
+                Err(error) => ConfigEvent::Rejected(error.to_string()),
             };
-            // Whoever does not listen any more is about to drop the watcher.
-            let _ = tell.send(told);
+            // A closed receiver is about to drop the watcher.
+            let _ = sender.send(event);
         };
-        let watcher = watcher(path, look);
+        let watcher = watcher(path, read);
         if let Err(error) = &watcher {
             tracing::warn!("{} is not watched for changes: {error}", path.display());
         }
-        Self { path: path.to_path_buf(), news, _watcher: watcher.ok() }
+        Self { path: path.to_path_buf(), events, _watcher: watcher.ok() }
     }
 
-    /// What has happened, the oldest first.
-    pub fn news(&self) -> Option<News> {
-        self.news.try_recv().ok()
+    /// The next event, the oldest first; `None` where there is none.
+    pub fn next_event(&self) -> Option<ConfigEvent> {
+        self.events.try_recv().ok()
     }
 
-    /// Waits for what happens next.
-    pub fn wait(&self, longest: Duration) -> Option<News> {
-        self.news.recv_timeout(longest).ok()
+    /// Waits for the next event, at most so long.
+    pub fn wait(&self, longest: Duration) -> Option<ConfigEvent> {
+        self.events.recv_timeout(longest).ok()
     }
 }
 
-/// Keys that differ and cannot change while the kiosk runs.
+/// Changed keys that take effect only at the next start.
 pub fn waits_for_restart(old: &Config, new: &Config) -> Vec<&'static str> {
     let keys = [
         ("screen.fullscreen", old.screen.fullscreen != new.screen.fullscreen),
@@ -139,17 +139,17 @@ pub fn waits_for_restart(old: &Config, new: &Config) -> Vec<&'static str> {
     keys.into_iter().filter(|(_, differ)| *differ).map(|(key, _)| key).collect()
 }
 
-/// Calls `look` when the file has changed. Its folder is watched: many editors put a new file in the old one's place.
+/// Calls `read` when the file has changed. The folder is watched, because many editors replace the file.
 fn watcher(
     path: &Path,
-    look: impl Fn() + Send + 'static,
+    read: impl Fn() + Send + 'static,
 ) -> Result<Debouncer<RecommendedWatcher, RecommendedCache>, Error> {
     let name = path.file_name().unwrap_or_default().to_owned();
     let mut debouncer = new_debouncer(QUIET, None, move |result: DebounceEventResult| match result {
         Ok(events) => {
             let own = |path: &PathBuf| path.file_name().is_some_and(|other| other == name);
             if events.iter().any(|event| is_change(&event.kind) && event.paths.iter().any(own)) {
-                look();
+                read();
             }
         }
         Err(errors) => errors.iter().for_each(|error| tracing::warn!("watching the configuration: {error}")),

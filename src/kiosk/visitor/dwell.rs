@@ -1,44 +1,44 @@
-//! For whoever points and cannot press, with an eye tracker, a head mouse or a stick: where the pointer rests for a while
-//! it presses. A ring about it fills meanwhile, so that nothing comes as a surprise.
+//! Dwell clicking, for visitors who point with an eye tracker, a head mouse or a stick and cannot press: a pointer that rests
+//! for a while presses. A ring around it fills meanwhile.
 //!
-//! On a button it may tremble as far as the button goes, on the picture by [`RADIUS`]. After a press nothing more comes of
-//! the same rest: the pointer must leave its place first, whatever has appeared below it.
+//! The pointer may tremble within a button, and on the picture within [`RADIUS`]. After a press the pointer must leave its
+//! place before it can press again, even if something else has appeared below it.
 
 use crate::visitor::input::Request;
 
-/// Farther than this the pointer has left its place, picture heights.
+/// Distance from which the pointer has left its place, picture heights.
 pub const RADIUS: f64 = 0.04;
-/// Whoever passes by is shown no ring, s.
+/// Time before the ring appears, s: a passing pointer shows none.
 const PASSING_S: f64 = 0.25;
 
-/// What lies below the pointer.
+/// Target below the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// A button.
     Button(Request),
-    /// The work: a press there begins a breath or ends it.
-    Work,
+    /// The exhibit: a press there begins a breath or ends it.
+    Exhibit,
 }
 
-/// A pointer that rests, or does not.
+/// State of dwell clicking.
 #[derive(Clone, Debug, Default)]
 pub struct Dwell {
-    rest: Option<Rest>,
+    resting: Option<Resting>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Rest {
+struct Resting {
     from: [f64; 2],
     since: f64,
     on: Option<Target>,
-    /// Has it pressed already?
+    /// Has this rest pressed already?
     spent: bool,
 }
 
 impl Dwell {
-    /// At `time`, s, the pointer is there (picture coordinates; `None` where there is none, or it is busy), on this; it
-    /// presses after `seconds`. Says what is pressed now. `aspect` is the picture's width over its height.
-    pub fn tend(
+    /// Takes the pointer at `time`, s: its place in picture coordinates and its target; `None` where there is no free pointer.
+    /// It presses after `seconds`. Returns the target that is pressed now. `aspect` is the picture's width over its height.
+    pub fn update(
         &mut self,
         time: f64,
         pointer: Option<([f64; 2], Option<Target>)>,
@@ -46,32 +46,32 @@ impl Dwell {
         aspect: f64,
     ) -> Option<Target> {
         let Some((at, on)) = pointer else {
-            self.rest = None;
+            self.resting = None;
             return None;
         };
-        let fresh = Rest { from: at, since: time, on, spent: false };
-        let rest = self.rest.get_or_insert(fresh);
-        let away = f64::hypot(aspect * (at[0] - rest.from[0]), at[1] - rest.from[1]) > RADIUS;
-        let left = match (rest.spent, on) {
-            (true, _) | (false, Some(Target::Work) | None) => away,
-            // However large the button is.
+        let fresh = Resting { from: at, since: time, on, spent: false };
+        let resting = self.resting.get_or_insert(fresh);
+        let away = f64::hypot(aspect * (at[0] - resting.from[0]), at[1] - resting.from[1]) > RADIUS;
+        let left = match (resting.spent, on) {
+            (true, _) | (false, Some(Target::Exhibit) | None) => away,
+            // On a button the place does not matter.
             (false, Some(Target::Button(_))) => false,
         };
-        if left || !rest.spent && rest.on != on {
-            *rest = fresh;
+        if left || !resting.spent && resting.on != on {
+            *resting = fresh;
         }
-        if rest.spent || rest.on.is_none() || time - rest.since < seconds {
+        if resting.spent || resting.on.is_none() || time - resting.since < seconds {
             return None;
         }
-        // From here the pointer must leave.
-        (rest.spent, rest.from) = (true, at);
-        rest.on
+        // The pointer must leave this place before the next press.
+        (resting.spent, resting.from) = (true, at);
+        resting.on
     }
 
-    /// How far the ring is filled, 0 … 1; `None` where there is nothing to show.
-    pub fn share(&self, time: f64, seconds: f64) -> Option<f64> {
-        let rest = self.rest.filter(|rest| !rest.spent && rest.on.is_some())?;
-        let rested = time - rest.since - PASSING_S;
+    /// Share of the ring that is filled, 0 … 1; `None` where no ring is shown.
+    pub fn progress(&self, time: f64, seconds: f64) -> Option<f64> {
+        let resting = self.resting.filter(|resting| !resting.spent && resting.on.is_some())?;
+        let rested = time - resting.since - PASSING_S;
         (rested > 0.0).then(|| (rested / (seconds - PASSING_S)).clamp(0.0, 1.0))
     }
 }

@@ -1,21 +1,21 @@
-//! What a visitor does with pointer, touch and keys, as what the simulation and the overlay are told.
+//! Input of a visitor: pointer, touch and keys as inputs of the simulation and requests to the kiosk.
 //!
-//! One action, many ways to do it: aim with pointer, finger or arrow keys; blow by holding button, finger or a key; take
-//! the sculpture by pulling button or finger (`gesture` tells one from the other). The place where a pointer happens to
-//! lie when the window opens is nobody's aim: it counts once it has moved.
+//! Each action has several inputs: aim with pointer, finger or arrow keys; blow by holding button, finger or a key; grab the
+//! sculpture by pulling with button or finger (`gesture` distinguishes them). The pointer sets the aim only after it has
+//! moved, not by its place when the window opens.
 //!
-//! Invariant: whatever is held is let go at the latest when the window loses the focus.
+//! Invariant: everything that is held is released at the latest when the window loses the focus.
 
 use crate::visitor::gesture::{Lift, Press};
 use soffio_config::Chord;
 
-/// How far a pointer must move before it aims, in picture heights or widths.
+/// Distance that a pointer must move before it aims, picture heights or widths.
 const FIRST_MOVE: f64 = 0.01;
 
-/// Where a pointer is that was never seen.
+/// Place of a pointer that has not moved yet.
 const CENTRE: [f64; 2] = [0.5, 0.5];
 
-/// What the window reports. Positions are picture coordinates, (0,0) top left, (1,1) bottom right.
+/// An input event of the window. Positions are picture coordinates, (0,0) top left, (1,1) bottom right.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Signal {
     /// The pointer is there.
@@ -33,8 +33,8 @@ pub enum Signal {
     },
     /// A key went down or up.
     Key(Key),
-    /// The window lost the focus: no release will be heard any more.
-    Deserted,
+    /// The window lost the focus: no release will be reported any more.
+    FocusLost,
 }
 
 /// What a finger does.
@@ -48,7 +48,7 @@ pub enum Phase {
     Up,
 }
 
-/// A key and what is held with it.
+/// A key and the modifiers held with it.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Key {
     /// Place of the key on a US keyboard: `A`, `7`, `F1`, `Space`, `Escape`.
@@ -65,7 +65,7 @@ pub struct Key {
     pub shift: bool,
 }
 
-/// What a signal asks of the kiosk besides aim and blow.
+/// A request to the kiosk, besides aim and blow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
     /// The next language.
@@ -74,59 +74,59 @@ pub enum Request {
     Language(usize),
     /// So many steps louder.
     Louder(i32),
-    /// Open or close the page with all the rest.
+    /// Open or close the page behind "More".
     Menu,
-    /// Show the work at this place among those offered.
-    Work(usize),
-    /// So many works on; while the page is open, so many leaves.
-    Leaf(i32),
-    /// Large type, or an end of it.
+    /// Show the exhibit at this place among those offered.
+    Exhibit(usize),
+    /// Go forward by so many exhibits; while the page is open, by so many pages.
+    Page(i32),
+    /// Large type on or off.
     Large,
-    /// High contrast, or an end of it.
+    /// High contrast on or off.
     Contrast,
-    /// The microphone off, or on again.
-    Listen,
-    /// A press begins the breath and the next one ends it, or: it is held.
+    /// Microphone off or on.
+    ToggleMicrophone,
+    /// "Press once" on or off: a press begins the breath and the next one ends it.
     PressOnce,
-    /// Resting the pointer presses, or does not.
+    /// Dwell clicking on or off.
     Dwell,
-    /// Less motion, or as much as there is.
-    Calm,
-    /// Look round the work, or back at it as it is shown.
-    Round,
-    /// Read aloud what is written, or hush.
-    Speak,
-    /// Mark the next button that way, right and down.
-    Look([i32; 2]),
-    /// Press the marked button.
-    Enter,
-    /// It lies beside all buttons.
+    /// Reduced motion on or off.
+    ReducedMotion,
+    /// Looking around the exhibit on or off.
+    LookAround,
+    /// Start or stop reading aloud.
+    ReadAloud,
+    /// Move the focus to the next button in this direction, right and down.
+    MoveFocus([i32; 2]),
+    /// Press the focused button.
+    PressFocused,
+    /// Nothing: a press beside all buttons of a page.
     Nothing,
-    /// Staff mute the kiosk, or let it sound again.
+    /// Staff mute or unmute the kiosk.
     Mute,
-    /// Staff go on from the configured hours to night, to day, and back.
+    /// Staff switch from the configured hours to night, to day, and back.
     Night,
-    /// Staff open the kiosk while the house is closed, or close it again.
+    /// Staff open the kiosk outside opening hours, or close it again.
     Open,
     /// Open or close the staff panel.
     ToggleStaff,
-    /// Close a window on somebody's desk. Nothing a visitor can do in the gallery asks for it.
+    /// Close a window on a desk. No input of a visitor in the gallery requests it.
     Close,
 }
 
-/// The visitor as pointer, fingers and keys show him.
+/// State of pointer, fingers and keys.
 #[derive(Clone, Debug, Default)]
 pub struct Visitor {
     aim: Option<[f64; 2]>,
     /// Where the pointer is, aiming or not.
     lies: Option<[f64; 2]>,
-    /// Where it lay when it did not aim yet.
+    /// First place of the pointer, before it aims.
     resting: Option<[f64; 2]>,
     /// The finger that aims.
     finger: Option<u64>,
-    /// What is down, by finger or by the pointer's button, and where it came down.
+    /// Presses that are down, by finger (`None`: the pointer's button), and where they came down.
     presses: Vec<(Option<u64>, Press, [f64; 2])>,
-    /// What has come up and was not told yet.
+    /// Presses that have come up and were not taken yet.
     lifts: Vec<Lift>,
     /// Presses so far.
     pressed: u64,
@@ -145,7 +145,7 @@ const ARROWS: [&str; 4] = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
 const LOUDER: [&str; 3] = ["Equal", "NumpadAdd", "AudioVolumeUp"];
 const SOFTER: [&str; 3] = ["Minus", "NumpadSubtract", "AudioVolumeDown"];
 
-/// Keys that the site chooses.
+/// Keys of the site's configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Keys<'a> {
     /// Opens the staff panel.
@@ -154,7 +154,7 @@ pub struct Keys<'a> {
     pub mute: &'a Chord,
     /// Changes between day and night.
     pub night: &'a Chord,
-    /// Opens the kiosk while the house is closed.
+    /// Opens the kiosk outside opening hours.
     pub open: &'a Chord,
     /// Blows while it is held.
     pub blow: &'a str,
@@ -165,7 +165,7 @@ pub struct Keys<'a> {
 }
 
 impl Keys<'_> {
-    /// What the staff's chords ask for.
+    /// Request of the staff's chords.
     pub fn chord(&self, key: &Key) -> Option<Request> {
         let chords = [
             (self.staff, Request::ToggleStaff),
@@ -180,7 +180,7 @@ impl Keys<'_> {
 }
 
 impl Visitor {
-    /// Takes in a signal. `windowed` says that this is somebody's desk and not the gallery.
+    /// Handles a signal. `windowed`: the kiosk runs in a window on a desk, not in the gallery.
     pub fn signal(&mut self, signal: &Signal, keys: Keys, windowed: bool) -> Option<Request> {
         match signal {
             Signal::Pointer(at) => self.pointer(*at),
@@ -193,12 +193,12 @@ impl Visitor {
                 self.activity += 1;
                 return self.key(key, keys, windowed);
             }
-            Signal::Deserted => self.let_go(),
+            Signal::FocusLost => self.release_all(),
         }
         None
     }
 
-    /// Where the breath is aimed; `None` is the centre.
+    /// Aim of the breath; `None` is the centre.
     pub fn aim(&self) -> Option<[f64; 2]> {
         self.aim
     }
@@ -208,33 +208,33 @@ impl Visitor {
         self.key
     }
 
-    /// The button and the fingers that are down, in the order in which they came.
+    /// Presses that are down, in the order in which they came.
     pub fn presses(&self) -> impl Iterator<Item = Press> {
         self.presses.iter().map(|(_, press, _)| *press)
     }
 
-    /// What has come up since this was asked last: however short a press was, it is told.
+    /// Takes the presses that have come up since the last call, however short they were.
     pub fn lifts(&mut self) -> Vec<Lift> {
         std::mem::take(&mut self.lifts)
     }
 
-    /// Times that the key that blows went down.
+    /// Number of presses of the key that blows.
     pub fn keyed(&self) -> u64 {
         self.keyed
     }
 
-    /// Where the arrow keys push the aim, right and down, −1, 0 or 1 each.
+    /// Direction of the arrow keys, right and down, −1, 0 or 1 each.
     pub fn stick(&self) -> [f64; 2] {
         let [left, right, up, down] = self.arrows.map(|held| f64::from(u8::from(held)));
         [right - left, down - up]
     }
 
-    /// Inputs so far: whoever sees it grow knows that somebody is there.
+    /// Number of inputs so far; while it grows, somebody is there.
     pub fn activity(&self) -> u64 {
         self.activity
     }
 
-    /// Where a signal begins to press on the picture; `None` where it does not.
+    /// Place where a signal begins a press on the picture; `None` for other signals.
     pub fn press_position(&self, signal: &Signal) -> Option<[f64; 2]> {
         match signal {
             Signal::Button(true) => self.lies,
@@ -243,12 +243,12 @@ impl Visitor {
         }
     }
 
-    /// Where the pointer is, once it has moved: for whoever rests it. Nowhere while something is pressed.
-    pub fn rests(&self) -> Option<[f64; 2]> {
+    /// Place of the pointer for dwell clicking, once it has moved; `None` while something is pressed.
+    pub fn resting_pointer(&self) -> Option<[f64; 2]> {
         self.aim.and(self.lies).filter(|_| self.presses.is_empty() && self.finger.is_none())
     }
 
-    /// A short press of a pointer that rests, there.
+    /// A short press at this place by dwell clicking.
     pub fn tap(&mut self, at: [f64; 2]) {
         self.press(None, at, true);
         self.press(None, at, false);
@@ -256,18 +256,18 @@ impl Visitor {
     }
 
     /// Counts an input that is neither aim nor breath.
-    pub fn note(&mut self) {
+    pub fn count_input(&mut self) {
         self.activity += 1;
     }
 
-    /// Whatever is held is let go: a page has come between.
-    pub fn let_go(&mut self) {
+    /// Releases everything that is held, as when a page opens.
+    pub fn release_all(&mut self) {
         (self.finger, self.key, self.arrows) = (None, false, [false; 4]);
         self.presses.clear();
         self.lifts.clear();
     }
 
-    /// Nobody is there any more: the next visitor starts from the centre.
+    /// The visitor has left: the next one starts from the centre.
     pub fn leave(&mut self) {
         let (lies, activity, pressed, keyed) = (self.lies, self.activity, self.pressed, self.keyed);
         *self = Self { lies, resting: lies, activity, pressed, keyed, ..Self::default() };
@@ -319,7 +319,7 @@ impl Visitor {
 
     fn key(&mut self, key: &Key, keys: Keys, windowed: bool) -> Option<Request> {
         let plain = !(key.ctrl || key.alt);
-        // A key that comes up lets go of the blow whatever is held with it by now.
+        // A released key ends the blow, whatever modifiers are held.
         if key.name == keys.blow && (plain || !key.pressed) {
             self.key = key.pressed && !keys.menu;
             self.keyed += u64::from(self.key && !key.repeat);
@@ -333,23 +333,23 @@ impl Visitor {
         if keys.menu && plain {
             let ways = [[-1, 0], [1, 0], [0, -1], [0, 1]];
             if let Some(arrow) = ARROWS.iter().position(|name| *name == key.name) {
-                return Some(Request::Look(ways[arrow]));
+                return Some(Request::MoveFocus(ways[arrow]));
             }
             if key.name == "Enter" || key.name == "NumpadEnter" || key.name == keys.blow {
-                return Some(Request::Enter);
+                return Some(Request::PressFocused);
             }
         }
-        if let Some(asked) = keys.chord(key) {
-            return Some(asked);
+        if let Some(request) = keys.chord(key) {
+            return Some(request);
         }
         match key.name.as_str() {
             name if plain && LOUDER.contains(&name) => Some(Request::Louder(1)),
             name if plain && SOFTER.contains(&name) => Some(Request::Louder(-1)),
-            name if plain && name == keys.read => Some(Request::Speak),
+            name if plain && name == keys.read => Some(Request::ReadAloud),
             "L" if plain => Some(Request::NextLanguage),
             "Tab" if !key.ctrl && !key.alt => Some(Request::Menu),
-            "PageDown" if plain => Some(Request::Leaf(1)),
-            "PageUp" if plain => Some(Request::Leaf(-1)),
+            "PageDown" if plain => Some(Request::Page(1)),
+            "PageUp" if plain => Some(Request::Page(-1)),
             "Escape" if windowed => Some(Request::Close),
             _ => None,
         }

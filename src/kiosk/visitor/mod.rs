@@ -1,10 +1,10 @@
-//! The visitor: pointer, touch and keys as aim, breath, hands and requests, and what this visitor needs otherwise.
+//! The visitor: pointer, touch and keys become aim, breath, grabs and requests. Also the visitor's accessibility settings.
 //!
-//! Pure state machines: they never draw, never read a device and never keep anything about a person beyond the visit.
+//! Pure state machines: they never draw, never read a device, and store nothing about a person beyond the visit.
 
+pub mod accessibility;
+pub(crate) mod breath_time;
 pub mod dwell;
 pub mod gesture;
-pub(crate) mod given;
 pub mod input;
-pub mod needs;
 pub mod orbit;

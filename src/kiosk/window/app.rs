@@ -1,4 +1,4 @@
-//! The window thread's state, part by part, and the window system's events as they come in.
+//! State of the window thread, and the handlers of the window system's events.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -12,62 +12,62 @@ use winit::platform::wayland::WindowAttributesExtWayland;
 use winit::window::{Fullscreen, Window, WindowId};
 
 use super::events::{is_input, translate};
-use super::ground::{Ended, Ground, Missing};
-use super::parts::desk::Desk;
+use super::launch::{Ended, Launch, Missing};
+use super::parts::desk::StaffDesk;
+use super::parts::exhibits::ExhibitSelection;
 use super::parts::graphics::Graphics;
-use super::parts::life::Life;
-use super::parts::overlaid::Overlaid;
+use super::parts::lifecycle::Lifecycle;
+use super::parts::overlays::Overlays;
 use super::parts::pacing::Pacing;
 use super::parts::setup::Setup;
-use super::parts::visit::Visit;
-use super::parts::works::Works;
+use super::parts::visit::VisitState;
 use super::screen::Screen;
-use super::workbench::Workbench;
+use super::shader_watcher::ShaderWatcher;
 use crate::fleet::Fleet;
 #[cfg(target_os = "linux")]
 use crate::fleet::watchdog::Watchdog;
 use crate::live::{Live, Options, Report};
 use crate::pages::ui_strings::Translations;
 use crate::step::command::KioskCommand;
-use crate::venue::house::{Above, House};
-use crate::venue::shelf::Places;
-use crate::venue::site::SiteFile;
+use crate::venue::catalog::ExhibitSource;
+use crate::venue::site::ConfigWatcher;
+use crate::venue::state::{OverlayCapture, VenueState};
 
-/// Size of the window on a desk, pixels.
+/// Size of a window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
-/// Longest sleep of the event loop: a signal, or the end of a run, is seen at the latest after this.
+/// Longest sleep of the event loop, and so the longest delay until a signal or the end of a run is noticed.
 const NAP: Duration = Duration::from_millis(50);
-/// A picture that is due for so long was not asked for: the display is off.
+/// Time after which a due frame that was not requested shows that the display is off.
 const UNASKED: Duration = Duration::from_secs(2);
 
-/// What exists once there is a window.
-pub(super) struct Show {
+/// State that exists once there is a window.
+pub(super) struct WindowAndSimulation {
     pub screen: Screen,
     pub live: Live,
 }
 
-/// All that the window thread owns. What it does with it is in the files beside this one, one for each concern.
+/// State of the window thread. Its methods are in the files beside this one, one for each concern.
 pub(super) struct App<'a> {
     pub setup: Setup,
-    pub life: Life<'a>,
-    pub show: Option<Show>,
+    pub life: Lifecycle<'a>,
+    pub show: Option<WindowAndSimulation>,
     pub graphics: Graphics,
     pub pacing: Pacing,
-    pub overlaid: Overlaid,
-    pub works: Works,
-    pub visit: Visit,
-    pub desk: Desk,
-    pub house: House,
+    pub overlays: Overlays,
+    pub exhibits: ExhibitSelection,
+    pub visit: VisitState,
+    pub desk: StaffDesk,
+    pub venue: VenueState,
     pub fleet: Fleet,
     #[cfg(target_os = "linux")]
     pub watchdog: Watchdog,
 }
 
 impl<'a> App<'a> {
-    /// Before there is a window.
+    /// The state before there is a window.
     pub(super) fn new(
-        ground: Ground,
-        places: &Places,
+        ground: Launch,
+        places: &ExhibitSource,
         options: Options,
         (events, interrupted): (&EventLoop<()>, &'a AtomicBool),
     ) -> Self {
@@ -78,19 +78,20 @@ impl<'a> App<'a> {
         });
         let translations =
             if ground.fleet.is_safe() { Translations::default() } else { Translations::load(ground.file.as_deref()) };
-        let Ground { config, overrides, file, problem, log, fleet, lose_device_at, shaders } = ground;
+        let Launch { config, overrides, file, problem, warnings, log, fleet, lose_device_at, shaders } = ground;
         Self {
-            works: Works::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
-            visit: Visit::new(&config, fleet.kept().given.clone()),
+            exhibits: ExhibitSelection::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
+            visit: VisitState::new(&config, fleet.persisted().breath_time.clone()),
             setup: Setup {
                 seed: options.site.settings.seed,
-                one: matches!(places, Places::One(_)),
+                one: matches!(places, ExhibitSource::One(_)),
                 overrides,
-                file: file.as_deref().map(SiteFile::watch),
-                says: problem.into_iter().collect(),
+                file: file.as_deref().map(ConfigWatcher::watch),
+                problems: problem.into_iter().collect(),
+                warnings,
                 config,
             },
-            life: Life {
+            life: Lifecycle {
                 interrupted,
                 waiting: Some(options),
                 waker: events.create_proxy(),
@@ -98,18 +99,18 @@ impl<'a> App<'a> {
                 failure: None,
             },
             show: None,
-            graphics: Graphics::new(instance, shaders.map(Workbench::new), lose_device_at),
+            graphics: Graphics::new(instance, shaders.map(ShaderWatcher::new), lose_device_at),
             pacing: Pacing::default(),
-            overlaid: Overlaid::new(translations),
-            desk: Desk::new(log),
-            house: House::default(),
+            overlays: Overlays::new(translations),
+            desk: StaffDesk::new(log),
+            venue: VenueState::default(),
             fleet,
             #[cfg(target_os = "linux")]
             watchdog: Watchdog::default(),
         }
     }
 
-    /// Ends the run; `looped` is how the event loop ended.
+    /// Ends the run; `looped` is the result of the event loop.
     pub(super) fn end(mut self, looped: Result<(), String>) -> Result<Ended, Missing> {
         #[cfg(target_os = "linux")]
         self.watchdog.end();
@@ -118,9 +119,9 @@ impl<'a> App<'a> {
             return Err(missing);
         }
         let counts = self.pacing.counts();
-        tracing::info!("{} pictures were shown, {} of them at rest", counts.shown, counts.at_rest);
+        tracing::info!("{} frames were shown, {} of them idle", counts.shown, counts.at_rest);
         let report = self.show.map_or_else(|| Ok(Report::default()), |show| show.live.finish());
-        // A run that failed has not ended in order: what is kept says that it died.
+        // A failed run does not end in order: the persisted state shows it as a crash.
         Ok(match (self.life.failure.take(), looped.and(report)) {
             (Some(failure), _) | (None, Err(failure)) => Ended::Failed(failure),
             (None, Ok(report)) => {
@@ -130,7 +131,7 @@ impl<'a> App<'a> {
         })
     }
 
-    /// For staff, on the panel and in the log.
+    /// Shows a message to staff, on the panel and in the log.
     pub(super) fn say(&mut self, message: String) {
         self.desk.say(self.pacing.time(), message);
     }
@@ -138,19 +139,19 @@ impl<'a> App<'a> {
 
 impl ApplicationHandler for App<'_> {
     fn resumed(&mut self, events: &ActiveEventLoop) {
-        self.follow_hours();
-        let closed = !self.house.is_open();
+        self.update_hours();
+        let closed = !self.venue.is_open();
         let Some(options) = self.life.waiting.take().map(|options| Options { closed, ..options }) else { return };
         let screen = open(events, self.setup.on_desk())
             .map_err(Missing::Display)
             .and_then(|w| self.graphics.open(w, &options.exhibit).map_err(Missing::Graphics));
         match screen {
-            // The motion begins when there is a window to see it in, in the shape of its picture.
+            // The motion begins when there is a window, with the aspect of its picture.
             Ok(screen) => match Live::start(options, screen.aspect(), self.life.wakes()) {
                 Ok(live) => {
                     tracing::info!("{:?} pixels on {}", screen.size(), screen.adapter().0);
-                    live.send(KioskCommand::Loudness(self.fleet.wishes()));
-                    self.show = Some(Show { screen, live });
+                    live.send(KioskCommand::Loudness(self.fleet.volume_requests()));
+                    self.show = Some(WindowAndSimulation { screen, live });
                 }
                 Err(error) => self.life.fail(events, error),
             },
@@ -164,12 +165,12 @@ impl ApplicationHandler for App<'_> {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         if event != WindowEvent::RedrawRequested {
-            self.pacing.note_input();
+            self.pacing.count_input();
         }
         let desk = self.setup.on_desk();
         let time = self.pacing.time();
-        // Nothing that is wiped over while the glass is cleaned reaches anything.
-        if self.house.cleans(time).is_some() && is_input(&event) {
+        // While the screen is cleaned every input is ignored.
+        if self.venue.cleaning_left(time).is_some() && is_input(&event) {
             return;
         }
         let Some(show) = &mut self.show else { return };
@@ -191,29 +192,29 @@ impl ApplicationHandler for App<'_> {
         }
         let Some(signal) = translate(&event, show.screen.window.inner_size(), self.visit.modifiers) else { return };
         let points = panel.egui_ctx().content_rect();
-        let above = Above { pointer: self.desk.panel.feel(&signal), keys: self.desk.panel.is_open() };
+        let above = OverlayCapture { pointer: self.desk.panel.handle_signal(&signal), keys: self.desk.panel.is_open() };
         let button = match self.visit.visitor.press_position(&signal) {
-            Some([x, y]) if !above.pointer && self.house.hears(time) => {
-                self.overlaid.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)))
+            Some([x, y]) if !above.pointer && self.venue.accepts_input(time) => {
+                self.overlays.button_at(points.lerp_inside(egui::vec2(x as f32, y as f32)))
             }
             _ => None,
         };
         let request = match button {
             // A press on a button is an input, but no breath.
             Some(request) => {
-                self.visit.visitor.note();
+                self.visit.visitor.count_input();
                 Some(request)
             }
             None => {
-                let keys = self.setup.keys(self.overlaid.menu.open);
-                self.house.signal(time, &mut self.visit.visitor, &signal, (keys, above), desk)
+                let keys = self.setup.keys(self.overlays.menu.open);
+                self.venue.signal(time, &mut self.visit.visitor, &signal, (keys, above), desk)
             }
         };
-        self.hush_at(&signal, request);
+        self.stop_reading_on(&signal, request);
         if let Some(request) = request {
-            self.grant(events, request);
+            self.handle_request(events, request);
         }
-        self.tell();
+        self.send_controls();
     }
 
     fn about_to_wait(&mut self, events: &ActiveEventLoop) {
@@ -221,31 +222,31 @@ impl ApplicationHandler for App<'_> {
         if over || self.life.is_interrupted() {
             return events.exit();
         }
-        while let Some(news) = self.works.shelf.news() {
-            self.hear(news);
+        while let Some(event) = self.exhibits.loader.next_event() {
+            self.handle_catalog_event(event);
         }
-        self.follow_site();
-        self.follow_hours();
-        self.follow_fleet();
-        self.follow_workbench();
+        self.update_config();
+        self.update_hours();
+        self.update_fleet();
+        self.update_shaders();
         let now = Instant::now();
         let due = now >= self.pacing.clock.next;
         if let Some(show) = self.show.as_ref().filter(|_| due) {
             show.screen.window.request_redraw();
         }
-        // A compositor whose display is off asks for no picture at all: the kiosk offers one, and is alive if it is refused.
+        // A compositor with its display off requests no frame. The kiosk offers one, and counts as alive if it is refused.
         if now >= self.pacing.clock.next + UNASKED {
             self.draw(events);
         }
-        // On a graphics processor the next picture is due at once and the display's rhythm makes it wait: its word wakes the loop.
+        // With a graphics processor the next frame is due at once and waits for the display, which wakes the loop.
         let nap = now + NAP;
         events.set_control_flow(ControlFlow::WaitUntil(if due { nap } else { self.pacing.clock.next.min(nap) }));
     }
 }
 
-/// Opens the window: all of the screen, or part of a desk.
+/// Opens the window: fullscreen, or on a desk.
 fn open(events: &ActiveEventLoop, on_desk: bool) -> Result<Arc<Window>, String> {
-    // By its name a compositor finds the screen that it belongs on.
+    // A compositor assigns the window to a screen by its name.
     let plain =
         Window::default_attributes().with_title("Soffio").with_name("soffio", "soffio").with_inner_size(DESK_SIZE);
     let attributes = match on_desk {

@@ -1,4 +1,4 @@
-//! The window system's events as the visitor's signals: the one place that knows both vocabularies.
+//! Translates the window system's events to signals of the visitor.
 
 use winit::dpi::{PhysicalPosition, PhysicalSize};
 use winit::event::{ElementState, KeyEvent, MouseButton, TouchPhase, WindowEvent};
@@ -6,10 +6,10 @@ use winit::keyboard::{ModifiersState, PhysicalKey};
 
 use crate::visitor::input::{Key, Phase, Signal};
 
-/// A window's event as the visitor's signal; `None` where it is none.
+/// The signal of a window event; `None` for other events.
 pub fn translate(event: &WindowEvent, size: PhysicalSize<u32>, modifiers: ModifiersState) -> Option<Signal> {
     Some(match event {
-        WindowEvent::Focused(false) => Signal::Deserted,
+        WindowEvent::Focused(false) => Signal::FocusLost,
         WindowEvent::CursorMoved { position, .. } => Signal::Pointer(in_picture(*position, size)),
         WindowEvent::MouseInput { state, button: MouseButton::Left, .. } => {
             Signal::Button(*state == ElementState::Pressed)
@@ -28,7 +28,7 @@ pub fn translate(event: &WindowEvent, size: PhysicalSize<u32>, modifiers: Modifi
     })
 }
 
-/// Is it something that a hand does, or anything the panel library takes for it?
+/// Is the event an input by hand, of any kind that the panel library handles?
 pub fn is_input(event: &WindowEvent) -> bool {
     use WindowEvent as E;
     matches!(
@@ -49,7 +49,7 @@ pub fn is_input(event: &WindowEvent) -> bool {
     )
 }
 
-/// A key by its place on the keyboard, so that a chord is the same on every layout.
+/// A key by its position on the keyboard, so that a chord is the same on every layout.
 fn key(event: &KeyEvent, modifiers: ModifiersState) -> Option<Key> {
     let PhysicalKey::Code(code) = event.physical_key else { return None };
     let name = format!("{code:?}");

@@ -1,63 +1,63 @@
-//! The window's part in what outlives it: how a new run goes on where the last one was, what is counted meanwhile, what
-//! is ordered from afar.
+//! Persisted state, counters, and commands of a broker.
 
 use std::time::Instant;
 
 use super::app::App;
 use crate::fleet::mqtt::Order;
-use crate::fleet::{SAFE_MODE, Seen};
-use crate::live::Frame;
-use crate::venue::loudness::Wishes;
+use crate::fleet::{SAFE_MODE, WindowStatus};
+use crate::live::LiveState;
+use crate::venue::loudness::VolumeRequests;
 
 impl App<'_> {
-    /// Goes on as the run before left it.
-    pub(super) fn go_on(&mut self) {
-        let (wrong, blank) = (self.fleet.kept().wrong_pins, self.fleet.kept().blank);
+    /// Restores the state of the run before.
+    pub(super) fn restore_state(&mut self) {
+        let (wrong, blank) = (self.fleet.persisted().wrong_pins, self.fleet.persisted().blank);
         self.desk.panel.gate().remember(wrong, self.pacing.time());
-        self.house.make_blank(blank);
-        self.fleet.read_anew(self.setup.says.is_empty(), None);
+        self.venue.set_blank(blank);
+        self.fleet.record_reload(self.setup.problems.is_empty(), None);
         if self.fleet.is_safe() {
             self.say(SAFE_MODE.into());
-            self.setup.says.push(SAFE_MODE.into());
+            self.setup.problems.push(SAFE_MODE.into());
         }
+        self.setup.problems.append(&mut self.setup.warnings);
     }
 
-    /// Counts, keeps and tells; does what is ordered.
-    pub(super) fn follow_fleet(&mut self) {
+    /// Counts, stores and reports; carries out commands.
+    pub(super) fn update_fleet(&mut self) {
         let Some(show) = &self.show else { return };
         let now = Instant::now();
         if self.graphics.loses_device(self.pacing.clock.seconds(now)) {
-            tracing::warn!("the graphics device is destroyed, as asked for");
+            tracing::warn!("the graphics device is destroyed, as requested");
             show.screen.destroy_device();
         }
         let frame = show.live.frame();
-        let seen = Seen {
+        let seen = WindowStatus {
             frame: &frame,
             site: &self.setup.config,
-            house: &self.house,
-            given: &self.visit.given,
-            language: &self.overlaid.languages.shown,
+            venue: &self.venue,
+            breath_time: &self.visit.breath_time,
+            language: &self.overlays.languages.shown,
             activity: self.visit.visitor.activity(),
             wrong_pins: self.desk.panel.gate().wrong(),
         };
-        self.fleet.tend(now, &seen);
+        self.fleet.update(now, &seen);
         while let Some(order) = self.fleet.order() {
             self.obey(order, &frame);
         }
     }
 
-    fn obey(&mut self, order: Order, frame: &Frame) {
+    fn obey(&mut self, order: Order, frame: &LiveState) {
         match order {
-            Order::Reload => self.works.shelf.show(&frame.exhibit.folder),
+            Order::Reload => self.exhibits.loader.show(&frame.exhibit.folder),
             Order::Blank | Order::Wake => {
-                let open = self.house.is_open();
-                self.house.make_blank(order == Order::Blank);
-                self.tell_house(open);
+                let open = self.venue.is_open();
+                self.venue.set_blank(order == Order::Blank);
+                self.announce_open_state(open);
             }
-            Order::Mute(mute) => self.wish(Wishes { muted: Some(mute), ..Wishes::default() }),
+            Order::Mute(mute) => self.request_volume(VolumeRequests { muted: Some(mute), ..VolumeRequests::default() }),
             Order::Exhibit(id) => {
-                if !self.works.show(&id) {
-                    self.say(format!("no work \"{id}\" is offered here"));
+                if !self.exhibits.show(&id) {
+                    self.say(format!("no exhibit \"{id}\" is offered here"));
                 }
             }
         }

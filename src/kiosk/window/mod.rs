@@ -1,29 +1,28 @@
-//! The window: events in, pictures out.
+//! The window: handles events and draws frames.
 //!
-//! In the gallery it fills the screen, hides the cursor and cannot be closed by anything that a visitor can press;
-//! only the staff panel leads out, or a signal from the terminal. On somebody's desk (`--windowed`) it closes like
-//! any window.
+//! In the gallery it fills the screen, hides the cursor, and cannot be closed by a visitor; only the staff panel or a signal
+//! from the terminal ends it. In a window on a desk (`--windowed`) it closes like any window.
 //!
-//! The window thread owns what is in `app`; it never waits for the simulation, a disk or the network. The
-//! simulation learns of it through [`Inbox`](crate::step::inbox::Inbox) alone.
+//! The window thread owns the state in `app`. It never waits for the simulation, a disk or the network. It sends to the
+//! simulation through [`Inbox`](crate::step::inbox::Inbox) alone.
 
 mod app;
-mod asked;
-mod day;
 mod events;
+mod exhibits;
 mod fleet;
-mod ground;
+mod frame;
+pub mod frame_pacing;
+pub mod idle_rendering;
+mod launch;
 mod parts;
-mod picture;
-pub mod rest;
-pub mod rhythm;
+pub mod quality_tiers;
+mod requests;
 mod run;
 mod screen;
-pub mod tiers;
+pub mod shader_watcher;
 mod timing;
+mod venue;
 mod visit;
-pub mod workbench;
-mod works;
 
-pub use ground::{Ended, Ground, Missing};
+pub use launch::{Ended, Launch, Missing};
 pub use run::{event_loop, run};

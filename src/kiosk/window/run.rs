@@ -5,21 +5,26 @@ use std::sync::atomic::AtomicBool;
 use winit::event_loop::EventLoop;
 
 use super::app::App;
-use super::ground::{Ended, Ground, Missing};
+use super::launch::{Ended, Launch, Missing};
 use crate::live::Options;
-use crate::venue::shelf::Places;
+use crate::venue::catalog::ExhibitSource;
 
-/// Shows an exhibit, and lets visitors choose among those of `places`, until somebody ends it. `interrupted` is set by a
-/// signal from outside.
-pub fn run(ground: Ground, places: &Places, options: Options, interrupted: &AtomicBool) -> Result<Ended, Missing> {
+/// Runs the kiosk until it is ended. Visitors choose among the exhibits of `places`. `interrupted` is set by a signal of the
+/// system.
+pub fn run(
+    ground: Launch,
+    places: &ExhibitSource,
+    options: Options,
+    interrupted: &AtomicBool,
+) -> Result<Ended, Missing> {
     let events = event_loop().map_err(Missing::Display)?;
     let mut app = App::new(ground, places, options, (&events, interrupted));
-    app.go_on();
+    app.restore_state();
     let looped = events.run_app(&mut app).map_err(|error| error.to_string());
     app.end(looped)
 }
 
-/// The connection to the display; the error is the system's reason alone, without the place in its library.
+/// The connection to the display; the error is the system's reason.
 pub fn event_loop() -> Result<EventLoop<()>, String> {
     EventLoop::new().map_err(|error| error.to_string().rsplit(": ").next().unwrap_or_default().to_owned())
 }

@@ -1,8 +1,8 @@
-//! The glass: a window's surface, the scene drawn into it and the panel library over the scene.
+//! The screen: the surface of a window, the scene drawn into it, and the panels over the scene.
 //!
 //! The surface's texture has two views: the scene goes through an sRGB one (the renderer writes linear light), type
 //! and panels through a plain one (the panel library blends in display values). Whatever the system does to the
-//! surface (resized, outdated, lost) costs a picture at most.
+//! surface (resized, outdated, lost) costs a frame at most.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,11 +17,11 @@ use soffio_simulation::Snapshot;
 
 use crate::pages::fonts;
 
-/// Longest press of a staff's finger that is a click, s, and how far it may slide meanwhile, points.
+/// Longest press that is a click, s, and its largest displacement, points: for a finger.
 const LONGEST_CLICK: f64 = 5.0;
 const CLICK_REACH: f32 = 12.0;
 
-/// A window with all that draws into it.
+/// A window with its graphics device and renderers.
 pub struct Screen {
     /// The window.
     pub window: Arc<Window>,
@@ -32,28 +32,28 @@ pub struct Screen {
     config: wgpu::SurfaceConfiguration,
     scene: Renderer,
     shown: Arc<Exhibit>,
-    /// The exhibit that comes on next, ready to be drawn.
+    /// The next exhibit, ready to be drawn.
     next: Option<(Arc<Exhibit>, GpuExhibit)>,
     type_setter: egui_wgpu::Renderer,
     broken: Arc<AtomicBool>,
     refresh: Option<f64>,
 }
 
-/// What became of a picture.
+/// Result of drawing a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drawn {
-    /// It is on the glass.
+    /// The frame was presented.
     Shown,
-    /// The system took the surface away for a moment; the next picture will do.
+    /// The surface is unavailable for a moment; the next frame will work.
     Skipped,
-    /// The display takes no picture: it is off, or something covers the window.
+    /// The display accepts no frame: it is off, or the window is covered.
     Dark,
-    /// The graphics device is gone: build a new [`Screen`].
+    /// The graphics device is lost: create a new [`Screen`].
     DeviceLost,
 }
 
 impl Screen {
-    /// Takes over a window. The error says what is missing.
+    /// Opens a graphics device for a window. The error says what is missing.
     pub fn new(instance: wgpu::Instance, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Self, String> {
         let surface = instance.create_surface(window.clone()).map_err(|error| error.to_string())?;
         let gpu = Gpu::for_surface(instance, &surface).map_err(|error| error.to_string())?;
@@ -79,7 +79,7 @@ impl Screen {
         let context = egui::Context::default();
         context.set_fonts(fonts::definitions());
         context.set_theme(egui::Theme::Light);
-        // A finger lies longer and less still than a mouse's button.
+        // A press by a finger is longer and less steady than by a mouse.
         context.options_mut(|options| {
             options.input_options.max_click_duration = LONGEST_CLICK;
             options.input_options.max_click_dist = CLICK_REACH;
@@ -103,32 +103,32 @@ impl Screen {
         f64::from(self.config.width) / f64::from(self.config.height)
     }
 
-    /// From one refresh of the display to the next, s, where it says.
+    /// Refresh interval of the display, s; `None` where it is unknown.
     pub fn refresh(&self) -> Option<f64> {
         self.refresh
     }
 
-    /// Name of the adapter, and whether it is a program on the processor.
+    /// Name of the adapter, and whether it is a software renderer.
     pub fn adapter(&self) -> (String, bool) {
         (self.gpu.name(), self.gpu.is_software())
     }
 
-    /// Draws so finely from the next picture on.
+    /// Sets the quality from the next frame on.
     pub fn set_finish(&mut self, finish: Sampling) {
         self.scene.set_sampling(&self.gpu, finish);
     }
 
-    /// Draws with these shaders from the next picture on.
+    /// Sets the shaders from the next frame on.
     pub fn set_shaders(&mut self, shaders: Shaders) {
         self.scene.set_shaders(&self.gpu, shaders.into());
     }
 
-    /// Destroys the graphics device, as a driver that dies would: the next picture finds it gone.
+    /// Destroys the graphics device, as a crashed driver would.
     pub fn destroy_device(&self) {
         self.gpu.device.destroy();
     }
 
-    /// Follows the window's size.
+    /// Takes over a changed size of the window.
     pub fn resize(&mut self, size: PhysicalSize<u32>) {
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width, size.height);
@@ -137,7 +137,7 @@ impl Screen {
         }
     }
 
-    /// Draws one picture: the moment, and over it whatever `paint` lays out.
+    /// Draws a frame: the state `moment`, and over it the panels that `paint` lays out.
     pub fn draw(
         &mut self,
         exhibit: &Arc<Exhibit>,
@@ -151,9 +151,9 @@ impl Screen {
         self.show(exhibit);
         let input = self.panel.take_egui_input(&self.window);
         let context = self.panel.egui_ctx().clone();
-        // Its wishes for cursor, clipboard and links are not granted: a kiosk has none of them.
+        // Its requests for cursor, clipboard and links are ignored: a kiosk has none of them.
         let mut laid_out = context.run_ui(input, paint);
-        // Textures are taken over even when there is no surface to draw on: the panel library says them only once.
+        // Textures are taken over even without a surface: the panel library sends them only once.
         for (id, deltas) in laid_out.textures_delta.set.drain() {
             for delta in deltas {
                 self.type_setter.update_texture(&self.gpu.device, &self.gpu.queue, id, &delta);
@@ -167,7 +167,7 @@ impl Screen {
                 Drawn::Shown
             }
             Err(why) => {
-                // A device that is gone says so only when it is asked.
+                // A lost device is reported only when it is polled.
                 let _ = self.gpu.device.poll(wgpu::PollType::Poll);
                 why
             }
@@ -178,13 +178,13 @@ impl Screen {
         drawn
     }
 
-    /// Makes ready to draw an exhibit, so that its first moments are seen when it comes on.
+    /// Prepares an exhibit for drawing, so that its first frames are not late.
     pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
-        // What cannot be drawn is said when it is shown.
+        // Errors are reported when it is shown.
         self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|work| (exhibit.clone(), work));
     }
 
-    /// Takes over another exhibit. One that cannot be drawn leaves the last picture's scene on show.
+    /// Shows another exhibit. If it cannot be drawn, the last scene stays.
     fn show(&mut self, exhibit: &Arc<Exhibit>) {
         if Arc::ptr_eq(&self.shown, exhibit) {
             return;
@@ -244,7 +244,7 @@ impl Screen {
         self.gpu.queue.submit(uploads.into_iter().chain([encoder.finish()]));
     }
 
-    /// The next texture of the surface, mending the surface where that is possible.
+    /// The next texture of the surface; recreates the surface if needed.
     fn acquire(&mut self) -> Result<wgpu::SurfaceTexture, Drawn> {
         use wgpu::CurrentSurfaceTexture as Current;
         match self.surface.get_current_texture() {
@@ -264,7 +264,7 @@ impl Screen {
     }
 }
 
-/// From one refresh of the window's display to the next, s.
+/// Refresh interval of the window's display, s.
 fn refresh(window: &Window) -> Option<f64> {
     let millihertz = window.current_monitor()?.refresh_rate_millihertz()?;
     (millihertz > 0).then(|| 1e3 / f64::from(millihertz))

@@ -19,7 +19,7 @@
 //! work and visitor, a metre of it, takes less than 0.3 dB at 16 kHz and is left out, that of the room's own ways is in T60.
 //!
 //! Level: of energy 1 that goes in, g²/(1 − g²)/16 comes out on either side, g² = 10^(−6 τ/T60) with the mean line τ;
-//! [`RoomSpec::level_db`] is the energy of the reverberation over that of the sound itself, at 1 kHz.
+//! [`ReverbSpec::level_db`] is the energy of the reverberation over that of the sound itself, at 1 kHz.
 //!
 //! Real-time: all storage is made by [`Room::new`]. A room that has become silent (below −240 dB) sleeps until there is
 //! something to be heard, which spares work and keeps numbers out of the range where processors are slow.
@@ -112,7 +112,7 @@ pub struct Reverb {
 }
 
 impl Reverb {
-    /// A silent room; `None` when it would not decay ([`RoomSpec::problem`] says why).
+    /// A silent room; `None` when it would not decay ([`ReverbSpec::problem`] says why).
     pub fn new(spec: &ReverbSpec, sample_rate: f64) -> Option<Self> {
         if spec.problem().is_some() {
             return None;

@@ -35,7 +35,7 @@ pub struct Args {
 }
 
 pub(super) fn run(args: Args) -> Outcome {
-    let (config, _) = Config::load(None).map_err(Failure::input)?;
+    let config = Config::load(None).map_err(Failure::input)?.config;
     let rehearsal = Rehearsal {
         exhibits: featured_exhibits(&config).map_err(Failure::input)?,
         site: Site::new(&config, args.seed),

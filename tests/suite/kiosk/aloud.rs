@@ -82,8 +82,8 @@ fn a_press_reads_label_help_and_what_is_to_be_seen_in_the_language_shown() {
         visitor.language = language.into();
         visitor.speech = Some(aloud.is_on());
         let buttons = visitor.look();
-        let (rect, _) = buttons.iter().find(|(_, request)| *request == Request::Speak).expect("a button");
-        assert_eq!(visitor.press(rect.center()), Some(Request::Speak));
+        let (rect, _) = buttons.iter().find(|(_, request)| *request == Request::ReadAloud).expect("a button");
+        assert_eq!(visitor.press(rect.center()), Some(Request::ReadAloud));
         assert_eq!(aloud.toggle(), None);
         let spoken = read(&mut visitor, &mut aloud);
         assert!(spoken.sample_rate == RATE && spoken.samples.iter().all(|sample| sample.abs() <= LOUDEST));
@@ -110,7 +110,7 @@ fn a_press_reads_label_help_and_what_is_to_be_seen_in_the_language_shown() {
         assert!(!aloud.can_speak(language));
     }
     visitor.speech = None;
-    assert!(!visitor.look().iter().any(|(_, request)| *request == Request::Speak));
+    assert!(!visitor.look().iter().any(|(_, request)| *request == Request::ReadAloud));
 }
 
 #[test]
@@ -122,14 +122,14 @@ fn keys_that_move_the_mark_are_told_the_button_once_something_was_read() {
     assert!(!aloud.is_on(), "nobody has asked for it");
     aloud.toggle();
     read(&mut visitor, &mut aloud);
-    visitor.needs.reading.large = true;
+    visitor.accessibility.text.large = true;
     let said = folder.path().join("said");
     for (request, name, language) in [
         (Request::Large, "Large text: on", "en"),
-        (Request::Calm, "Less motion: off", "en"),
-        (Request::Round, "Look round: off", "en"),
+        (Request::ReducedMotion, "Less motion: off", "en"),
+        (Request::LookAround, "Look round: off", "en"),
         (Request::Menu, "Back to the work", "en"),
-        (Request::Work(2), "Work 2", "en"),
+        (Request::Exhibit(2), "Work 2", "en"),
         (Request::Language(2), "Italiano", "it"),
     ] {
         let _ = std::fs::remove_file(&said);
@@ -175,10 +175,10 @@ fn a_touch_ends_the_reading_unless_it_is_about_the_reading() {
     for (request, on) in [
         (None, false),
         (Some(Request::Menu), false),
-        (Some(Request::Work(3)), false),
+        (Some(Request::Exhibit(3)), false),
         (Some(Request::Language(1)), false),
         (Some(Request::Louder(1)), true),
-        (Some(Request::Look([1, 0])), true),
+        (Some(Request::MoveFocus([1, 0])), true),
     ] {
         assert_eq!(keeps_reading(request), on, "{request:?}");
     }

@@ -7,7 +7,7 @@ use soffio_kiosk::egui;
 use soffio_kiosk::pages::bidi::{has_right_to_left, is_right_to_left, lines};
 use soffio_kiosk::pages::canvas::{Canvas, INK};
 use soffio_kiosk::pages::fonts::{self, Script};
-use soffio_kiosk::visitor::needs::Reading;
+use soffio_kiosk::visitor::accessibility::TextSettings;
 
 use super::glass::Glass;
 use super::pages::{Before, load};
@@ -89,7 +89,7 @@ fn with_page<T>(then: impl FnOnce(&Canvas) -> T) -> Option<T> {
     let input = egui::RawInput { screen_rect: Some(picture), ..egui::RawInput::default() };
     let mut laid_out = context.run_ui(input, |ui| {
         let painter = ui.ctx().layer_painter(egui::LayerId::background());
-        let page = Canvas::new(&painter, picture, 2.0, Reading::default());
+        let page = Canvas::new(&painter, picture, 2.0, TextSettings::default());
         made = then.take().map(|then| then(&page));
     });
     laid_out.textures_delta.clear();

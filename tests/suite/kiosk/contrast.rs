@@ -12,8 +12,8 @@ use soffio_kiosk::egui::{self, Rect};
 use soffio_kiosk::pages::languages::{languages_without_glyphs, offered};
 use soffio_kiosk::pages::ui_strings::TextId;
 use soffio_kiosk::staff::Page;
-use soffio_kiosk::venue::house::House;
-use soffio_kiosk::visitor::needs::Reading;
+use soffio_kiosk::venue::state::VenueState;
+use soffio_kiosk::visitor::accessibility::TextSettings;
 use soffio_offline::pictures::Pictures;
 
 use super::glass::{Glass, luminance};
@@ -139,10 +139,10 @@ fn look(glass: &mut Glass, id: &str, languages: &[&str]) -> (Vec<String>, usize)
     visitor.captions = exhibit.sounds.iter().filter_map(|sound| sound.caption.clone()).take(2).collect();
     // Where the system has no East Asian font those languages are not offered.
     for language in languages.iter().filter(|code| offered.iter().any(|other| other == **code)) {
-        for reading in [Reading::default(), Reading { large: true, contrast: true }] {
+        for reading in [TextSettings::default(), TextSettings { large: true, contrast: true }] {
             for open in [false, true] {
                 visitor.language = (*language).to_owned();
-                (visitor.needs.reading, visitor.menu.open) = (reading, open);
+                (visitor.accessibility.text, visitor.menu.open) = (reading, open);
                 let (lines, with, without) = seen(&mut visitor, glass, &picture);
                 for line in &lines {
                     let ratio = contrast(&with, &without, line.place);
@@ -181,13 +181,13 @@ fn type_on_the_screen_that_is_cleaned_and_on_a_deaf_mute_kiosk_has_this_contrast
     let on_the_glass = visitor.picture();
     let (mut bad, mut measured) = (Vec::new(), 0);
     for language in offered {
-        for reading in [Reading::default(), Reading { large: true, contrast: true }] {
+        for reading in [TextSettings::default(), TextSettings { large: true, contrast: true }] {
             for cleaned in [false, true] {
-                (visitor.language, visitor.needs.reading) = (language.clone(), reading);
+                (visitor.language, visitor.accessibility.text) = (language.clone(), reading);
                 (visitor.hears, visitor.silent, visitor.leaves_in) = (false, true, Some(3.0));
-                visitor.house = House::default();
+                visitor.house = VenueState::default();
                 if cleaned {
-                    visitor.house.clean(visitor.time, soffio_config::CLEANING_S);
+                    visitor.house.start_cleaning(visitor.time, soffio_config::CLEANING_S);
                 }
                 let (lines, with, without) = seen(&mut visitor, &mut glass, &picture);
                 let wanted: &[TextId] = match cleaned {

@@ -29,7 +29,7 @@ fn numbers_of_a_sidecar_are_found_by_the_names_a_curator_gave() {
     assert_eq!((friction.value, friction.unit.as_str()), (0.25, ""));
     let radius = find(&all, "wire b2-wire", "radius");
     assert_eq!((radius.value, radius.unit.as_str()), (0.6, "mm"));
-    assert_eq!(find(&all, "wind.room", "speed").unit, "m/s");
+    assert_eq!(find(&all, "wind.ambient", "speed").unit, "m/s");
     assert_eq!(find(&all, "material.steel", "loss_factor").value, 1.5e-3);
     assert_eq!(find(&all, "scene", "level").unit, "dB");
     assert!(find(&all, "wind_surface RedPlate", "sampling.max").whole);

@@ -5,41 +5,41 @@ use std::sync::Arc;
 
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
-use soffio_kiosk::fleet::kept::Kept;
-use soffio_kiosk::fleet::metrics::{Numbers, text};
+use soffio_kiosk::fleet::metrics::{MetricsInput, text};
+use soffio_kiosk::fleet::persisted::PersistedState;
 use soffio_kiosk::fleet::visits::{DWELL_S, FRAME_S, Histogram};
-use soffio_kiosk::live::{Frame, Load};
+use soffio_kiosk::live::{LiveState, RunStatus};
 use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
-use soffio_kiosk::step::breaths::{Blows, Source, Turn};
+use soffio_kiosk::step::breaths::{BreathCounts, BreathEvent, BreathSource};
 use soffio_kiosk::step::stage::Stage;
-use soffio_kiosk::venue::house::House;
-use soffio_kiosk::venue::loudness::{NightBy, Wishes};
+use soffio_kiosk::venue::loudness::{NightBy, VolumeRequests};
 use soffio_kiosk::venue::site::Overrides;
+use soffio_kiosk::venue::state::VenueState;
 use soffio_simulation::Settings;
 
-fn frame(load: Load) -> Frame {
+fn frame(load: RunStatus) -> LiveState {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/pendulum");
     let exhibit = Arc::new(exhibit::load(&folder).expect("the shipped exhibit is valid"));
     let stage = Stage::new(exhibit, Settings::default(), None, None);
-    Frame { hears: true, load, ..Frame::new(&stage) }
+    LiveState { hears: true, load, ..LiveState::new(&stage) }
 }
 
 #[test]
 fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
-    let mut load = Load::default();
+    let mut load = RunStatus::default();
     load.loudness.level_db = [f64::NEG_INFINITY, -31.5];
     load.audio.xruns = 3;
-    let mut kept = Kept { starts: 7, ..Kept::default() };
-    kept.tally.visits = 2;
-    [4.0, 70.0].into_iter().for_each(|seconds| kept.tally.dwell.note(DWELL_S, seconds));
-    kept.tally.blows.insert("microphone".into(), 5);
-    kept.tally.languages.insert("a\"b\\".into(), 1);
+    let mut kept = PersistedState { starts: 7, ..PersistedState::default() };
+    kept.counters.visits = 2;
+    [4.0, 70.0].into_iter().for_each(|seconds| kept.counters.dwell.record(DWELL_S, seconds));
+    kept.counters.blows.insert("microphone".into(), 5);
+    kept.counters.languages.insert("a\"b\\".into(), 1);
     let mut frames = Histogram::default();
-    (0..10).for_each(|_| frames.note(FRAME_S, 0.016));
+    (0..10).for_each(|_| frames.record(FRAME_S, 0.016));
     let content = ("pendulum", "00ff");
     let text = text(
         &frame(load),
-        &Numbers { kept: &kept, frames: &frames, safe: true, reloads: false, foam_lasts: 100, content },
+        &MetricsInput { persisted: &kept, frames: &frames, safe: true, reloads: false, foam_lasts: 100, content },
     );
     for line in [
         "kiosk_up 1",
@@ -87,15 +87,15 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
 
 #[test]
 fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
-    let numbers = Numbers {
-        kept: &Kept::default(),
+    let numbers = MetricsInput {
+        persisted: &PersistedState::default(),
         frames: &Histogram::default(),
         safe: false,
         reloads: true,
         foam_lasts: 5000,
         content: ("pendulum", ""),
     };
-    let mut told = text(&frame(Load::default()), &numbers);
+    let mut told = text(&frame(RunStatus::default()), &numbers);
     // These are exported only once they have a value.
     told += "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
@@ -116,11 +116,11 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
 
 #[test]
 fn breaths_are_counted_by_their_source_when_they_begin() {
-    let mut blows = Blows::default();
-    blows.note(&Turn::Begins(Source::Hold, 3.0));
-    blows.note(&Turn::Ends { source: Source::Hold, seconds: 1.0, peak: 3.0 });
-    blows.note(&Turn::Begins(Source::Hold, 3.0));
-    blows.note(&Turn::Begins(Source::Script, 3.0));
+    let mut blows = BreathCounts::default();
+    blows.record(&BreathEvent::Begins(BreathSource::Hold, 3.0));
+    blows.record(&BreathEvent::Ends { source: BreathSource::Hold, seconds: 1.0, peak: 3.0 });
+    blows.record(&BreathEvent::Begins(BreathSource::Hold, 3.0));
+    blows.record(&BreathEvent::Begins(BreathSource::Script, 3.0));
     let counts: Vec<u64> = blows.iter().map(|(_, count)| count).collect();
     assert_eq!(counts, [0, 2, 0, 1]);
 }
@@ -131,7 +131,7 @@ fn the_night_key_leads_from_the_hours_to_what_staff_had_chosen() {
     for (by, presses) in [(NightBy::Hours, 0), (NightBy::Night, 1), (NightBy::Day, 2)] {
         assert_eq!(by.presses(), presses);
     }
-    assert_eq!(Wishes::default().nights, NightBy::default().presses());
+    assert_eq!(VolumeRequests::default().nights, NightBy::default().presses());
 }
 
 #[test]
@@ -145,13 +145,13 @@ fn wrong_pins_are_not_forgotten_at_a_restart() {
 
 #[test]
 fn what_is_made_black_from_afar_stays_black_until_it_is_woken_there_or_here() {
-    let mut house = House::default();
-    house.make_blank(true);
-    assert!(!house.is_open() && !house.hears(0.0));
+    let mut house = VenueState::default();
+    house.set_blank(true);
+    assert!(!house.is_open() && !house.accepts_input(0.0));
     house.open_early();
     assert!(house.is_open() && !house.is_blank() && !house.is_early(), "staff open it by their key");
-    house.make_blank(true);
-    house.make_blank(false);
+    house.set_blank(true);
+    house.set_blank(false);
     assert!(house.is_open());
 }
 

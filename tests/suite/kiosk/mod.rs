@@ -65,22 +65,22 @@ fn every_number_of_the_configuration_has_a_range_that_holds_its_default() {
 }
 
 #[test]
-fn two_capsules_are_two_channels() {
-    assert_eq!(problems("[audio]\nmicrophone_channel = 1\nsecond_capsule_channel = 2"), [""; 0]);
-    for (first, message) in [(0, "a second capsule beside a mix"), (2, "both capsules are channel 2")] {
-        let text = format!("[audio]\nmicrophone_channel = {first}\nsecond_capsule_channel = 2");
+fn two_microphones_are_two_channels() {
+    assert_eq!(problems("[audio]\nmicrophone_channel = 1\nsecond_microphone_channel = 2"), [""; 0]);
+    for (first, message) in [(0, "a second microphone beside a mix"), (2, "both microphones are channel 2")] {
+        let text = format!("[audio]\nmicrophone_channel = {first}\nsecond_microphone_channel = 2");
         let found = problems(&text);
-        assert!(found.len() == 1 && found[0].starts_with(&format!("3:26 {message}")), "{found:?}");
+        assert!(found.len() == 1 && found[0].starts_with(&format!("3:29 {message}")), "{found:?}");
     }
 }
 
 #[test]
 fn a_work_is_in_one_group_and_a_group_has_a_heading() {
-    let group = |heading: &str, works: &str| format!("[[exhibits.groups]]\nheading = {heading}\nworks = {works}\n");
+    let group = |heading: &str, ids: &str| format!("[[exhibits.groups]]\nheading = {heading}\nexhibits = {ids}\n");
     let mobiles = group("{ en = \"Mobiles\" }", "[\"steel-fish\"]");
     assert_eq!(problems(&format!("{mobiles}{}", group("{ it = \"Altre\" }", "[\"*\"]"))), [""; 0]);
     for (text, message) in [
-        (group("{ en = \"All\" }", "[\"*\", \"steel-fish\"]"), "\"steel-fish\" stands twice"),
+        (group("{ en = \"All\" }", "[\"*\", \"steel-fish\"]"), "\"steel-fish\" is twice"),
         (group("{}", "[]"), "has no heading"),
         (group("{ en = 3 }", "[]"), "expected a string"),
         (group("{ en = \"A\" }", "[]\nwork = []"), "unknown field `work`"),
@@ -173,15 +173,15 @@ mod live {
     use soffio_config::Chord;
     use soffio_detector::generate;
     use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
-    use soffio_kiosk::attract::script::Attract;
-    use soffio_kiosk::live::pace::{MOST_BEHIND, Pacer};
-    use soffio_kiosk::venue::shelf::{News, Offer, Places, Shelf, folders, id};
+    use soffio_kiosk::attract::script::AttractMode;
+    use soffio_kiosk::live::step_scheduler::{MOST_BEHIND, StepScheduler};
+    use soffio_kiosk::venue::catalog::{Catalog, CatalogEvent, CatalogLoader, ExhibitSource, folders, id};
     use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
     use soffio_simulation::Command;
 
     #[test]
     fn an_hour_of_uneven_waking_is_exactly_240_steps_a_second() {
-        let mut pacer = Pacer::default();
+        let mut pacer = StepScheduler::default();
         let mut random = soffio_math::noise::Random::new(11);
         let (mut now, mut steps) = (Duration::ZERO, 0);
         while now < Duration::from_secs(3600) {
@@ -194,7 +194,7 @@ mod live {
 
     #[test]
     fn a_short_delay_is_made_up_and_a_long_one_is_dropped() {
-        let mut pacer = Pacer::default();
+        let mut pacer = StepScheduler::default();
         assert_eq!(pacer.due(Duration::from_millis(250)), MOST_BEHIND, "a quarter of a second is made up");
         assert_eq!(pacer.due(Duration::from_millis(1250)), 1, "a second is not: the motion goes on where it was");
         assert_eq!(pacer.dropped(), 239);
@@ -279,7 +279,7 @@ mod live {
             tell(&mut visitor, up);
             assert!(!holds(&visitor), "{down:?}");
             tell(&mut visitor, down);
-            tell(&mut visitor, Signal::Deserted);
+            tell(&mut visitor, Signal::FocusLost);
             assert!(!holds(&visitor), "a window that loses the focus hears no release");
         }
     }
@@ -299,7 +299,7 @@ mod live {
         assert_eq!(press("ArrowLeft", true), (true, [0.0, -1.0]), "left and right at once is neither");
         press("ArrowRight", false);
         assert_eq!(press("F9", false), (false, [-1.0, -1.0]));
-        tell(&mut visitor, Signal::Deserted);
+        tell(&mut visitor, Signal::FocusLost);
         assert_eq!(visitor.stick(), [0.0, 0.0], "a window that loses the focus hears no release");
     }
 
@@ -348,12 +348,12 @@ mod live {
         let keys = Keys { menu: true, ..keys(&chord, "Space") };
         let mut visitor = Visitor::default();
         for (name, asked) in [
-            ("ArrowLeft", Request::Look([-1, 0])),
-            ("ArrowDown", Request::Look([0, 1])),
-            ("Enter", Request::Enter),
-            ("Space", Request::Enter),
+            ("ArrowLeft", Request::MoveFocus([-1, 0])),
+            ("ArrowDown", Request::MoveFocus([0, 1])),
+            ("Enter", Request::PressFocused),
+            ("Space", Request::PressFocused),
             ("Tab", Request::Menu),
-            ("PageDown", Request::Leaf(1)),
+            ("PageDown", Request::Page(1)),
         ] {
             assert_eq!(visitor.signal(&key(name, true), keys, false), Some(asked), "{name}");
             assert!(!holds(&visitor) && visitor.stick() == [0.0; 2], "{name}");
@@ -386,7 +386,7 @@ mod live {
 
     #[test]
     fn attract_mode_begins_after_the_idle_time_and_ends_at_the_first_input() {
-        let mut attract = Attract::new(script(), 2.0);
+        let mut attract = AttractMode::new(script(), 2.0);
         for step in 1..480 {
             assert!(!attract.step(false, 0.0).active, "step {step}");
         }
@@ -409,7 +409,7 @@ mod live {
 
     #[test]
     fn the_attract_script_runs_in_time_and_repeats() {
-        let mut attract = Attract::new(script(), 1.0 / 240.0);
+        let mut attract = AttractMode::new(script(), 1.0 / 240.0);
         for round in 0..2 {
             for step in 0..240 {
                 let cue = attract.step(false, 0.0);
@@ -426,7 +426,7 @@ mod live {
 
     #[test]
     fn what_the_attract_script_has_set_swinging_is_calmed_a_second_later() {
-        let mut attract = Attract::new(Script { duration: 4.0, ..script() }, 1.0 / 240.0);
+        let mut attract = AttractMode::new(Script { duration: 4.0, ..script() }, 1.0 / 240.0);
         let calmed = (0..960).filter(|_| attract.step(false, 0.0).commands.contains(&Command::Settle)).count();
         assert_eq!(calmed, 1);
         // The breath ends at step 180 of each round.
@@ -443,11 +443,11 @@ mod live {
         let blow = AttractAction::Blow { samples, sample_rate: 48_000, aim: None };
         let script = Script { steps: vec![AttractStep { at: 0.25, action: blow }], duration: 8.0 };
         let fastest = |before: f64, during: f64| {
-            let mut attract = Attract::new(script.clone(), 1.0 / 240.0);
+            let mut attract = AttractMode::new(script.clone(), 1.0 / 240.0);
             let cues =
                 (0..1440).flat_map(|step| attract.step(false, if step <= 60 { before } else { during }).commands);
             let speeds = cues.filter_map(|command| if let Command::Blow(speed) = command { speed } else { None });
-            speeds.fold(0.0, f64::max)
+            speeds.fold(0.0_f64, f64::max)
         };
         let [calm, swings, swung_before] = [fastest(0.0, 0.0), fastest(0.0, 0.09), fastest(0.09, 0.09)];
         assert!(calm > 0.0 && (4.0 * swings / calm - 1.0).abs() < ROUNDING, "{calm} and {swings} m/s");
@@ -456,7 +456,7 @@ mod live {
 
     #[test]
     fn an_empty_script_still_waits_for_visitors() {
-        let mut attract = Attract::new(Script::default(), 0.0);
+        let mut attract = AttractMode::new(Script::default(), 0.0);
         assert!(attract.step(false, 0.0).active && attract.step(false, 0.0).active);
         assert!(!attract.step(true, 0.0).active);
     }
@@ -469,20 +469,24 @@ mod live {
         let folder = tempfile::tempdir().expect("a folder");
         let copy = folder.path().join("steel-fish");
         copy_folder(&shipped, &copy);
-        let shelf = Shelf::new(&Places::One(copy.clone()), &copy, true);
+        let shelf = CatalogLoader::new(&ExhibitSource::One(copy.clone()), &copy, true);
         assert!(
-            matches!(shelf.wait(LONG), Some(News::Stands(work)) if work.id == "steel-fish" && work.thumbnail.is_some())
+            matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(work)) if work.id == "steel-fish" && work.thumbnail.is_some())
         );
         let sidecar = copy.join("exhibit.toml");
         let text = std::fs::read_to_string(&sidecar).expect("a sidecar");
 
         std::fs::write(&sidecar, &text).expect("writable");
-        let Some(News::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
+        let Some(CatalogEvent::Show(loaded)) = shelf.wait(LONG) else {
+            panic!("the change is noticed, the exhibit valid")
+        };
         assert_eq!(loaded.id, "steel-fish");
-        assert!(matches!(shelf.wait(LONG), Some(News::Stands(_))));
+        assert!(matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(_))));
 
         std::fs::write(&sidecar, format!("{text}\n[no-such-table]\n")).expect("writable");
-        let Some(News::Falls(id, report)) = shelf.wait(LONG) else { panic!("the change is noticed, nothing shown") };
+        let Some(CatalogEvent::Rejected(id, report)) = shelf.wait(LONG) else {
+            panic!("the change is noticed, nothing shown")
+        };
         assert!(id == "steel-fish" && report.contains("no-such-table"), "{report}");
     }
 
@@ -495,22 +499,23 @@ mod live {
             copy_folder(&shipped.join(id), &site.path().join(id));
         }
         let show = ["steel-fish", "*", "pendulum"].map(str::to_owned).to_vec();
-        let places = Places::All { folder: site.path().to_path_buf(), show };
+        let places = ExhibitSource::All { folder: site.path().to_path_buf(), show };
         let named: Vec<String> = folders(&places).iter().map(|folder| id(folder)).collect();
         assert_eq!(named, ["steel-fish", "pendulum"]);
-        let shelf = Shelf::new(&places, &site.path().join("steel-fish"), true);
-        let mut offer = Offer::new(&places);
+        let shelf = CatalogLoader::new(&places, &site.path().join("steel-fish"), true);
+        let mut offer = Catalog::new(&places);
         let mut said = Vec::new();
-        let mut until = |offer: &mut Offer, wanted: &[&str]| {
-            while offer.works().iter().map(|work| work.id.as_str()).ne(wanted.iter().copied()) {
-                match shelf.wait(LONG).unwrap_or_else(|| panic!("{wanted:?} never stood there: {:?}", offer.works())) {
-                    News::Stands(work) => offer.put(*work),
-                    News::Gone(id) => offer.remove(&id),
-                    News::Falls(id, report) => {
+        let mut until = |offer: &mut Catalog, wanted: &[&str]| {
+            while offer.entries().iter().map(|work| work.id.as_str()).ne(wanted.iter().copied()) {
+                match shelf.wait(LONG).unwrap_or_else(|| panic!("{wanted:?} never stood there: {:?}", offer.entries()))
+                {
+                    CatalogEvent::Listed(work) => offer.insert(*work),
+                    CatalogEvent::Removed(id) => offer.remove(&id),
+                    CatalogEvent::Rejected(id, report) => {
                         offer.remove(&id);
                         said.push(report);
                     }
-                    News::Show(_) | News::Failed(_) => {}
+                    CatalogEvent::Show(_) | CatalogEvent::Failed(_) => {}
                 }
             }
         };
@@ -518,8 +523,8 @@ mod live {
         // Dropped while the kiosk runs: between the two that are named, as the star says.
         copy_folder(&shipped.join("chains"), &site.path().join("chains"));
         until(&mut offer, &["steel-fish", "chains", "pendulum"]);
-        assert_eq!(offer.beside("pendulum", 1).map(|work| work.id.as_str()), Some("steel-fish"), "round and round");
-        assert_eq!(offer.beside("steel-fish", -1).map(|work| work.id.as_str()), Some("pendulum"));
+        assert_eq!(offer.neighbour("pendulum", 1).map(|work| work.id.as_str()), Some("steel-fish"), "round and round");
+        assert_eq!(offer.neighbour("steel-fish", -1).map(|work| work.id.as_str()), Some("pendulum"));
         std::fs::remove_dir_all(site.path().join("chains")).expect("removable");
         until(&mut offer, &["steel-fish", "pendulum"]);
     }
@@ -539,16 +544,16 @@ mod live {
 }
 
 #[cfg(feature = "kiosk")]
+mod accessibility;
+#[cfg(feature = "kiosk")]
 mod aloud;
 #[cfg(feature = "kiosk")]
 mod bidi;
+#[cfg(feature = "kiosk")]
+mod camera_sway;
 mod captions;
 #[cfg(feature = "kiosk")]
-mod chirp;
-#[cfg(feature = "kiosk")]
 mod contrast;
-#[cfg(feature = "kiosk")]
-mod drift;
 #[cfg(feature = "kiosk")]
 mod dwell;
 #[cfg(feature = "kiosk")]
@@ -558,13 +563,16 @@ mod flashes;
 #[cfg(feature = "kiosk")]
 mod fleet;
 #[cfg(feature = "kiosk")]
+mod frame_pacing;
+#[cfg(feature = "kiosk")]
 mod glass;
 #[cfg(feature = "kiosk")]
-mod hearing;
+mod hearing_loop;
 #[cfg(feature = "kiosk")]
-mod house;
+mod idle_rendering;
 #[cfg(feature = "kiosk")]
-mod needs;
+mod instruments;
+mod modules;
 mod opening;
 #[cfg(feature = "kiosk")]
 mod orbit;
@@ -572,14 +580,13 @@ mod orbit;
 mod pages;
 mod pin;
 #[cfg(feature = "kiosk")]
+mod quality_tiers;
+#[cfg(feature = "kiosk")]
 mod record;
 #[cfg(feature = "kiosk")]
-mod rest;
-#[cfg(feature = "kiosk")]
-mod rhythm;
-mod rooms;
-#[cfg(feature = "kiosk")]
 mod screens;
+#[cfg(feature = "kiosk")]
+mod self_test;
 #[cfg(feature = "kiosk")]
 mod site;
 #[cfg(feature = "kiosk")]
@@ -587,11 +594,9 @@ mod staff;
 #[cfg(feature = "kiosk")]
 mod stage;
 #[cfg(feature = "kiosk")]
-mod tiers;
-#[cfg(feature = "kiosk")]
 mod ui_strings;
 #[cfg(feature = "kiosk")]
-mod voice;
+mod venue_state;
 
 mod room {
     use soffio::commands::doctor::{Health, judge_blow, judge_room};

@@ -24,7 +24,7 @@ const HOME: usize = 5 * 240;
 
 /// Somebody looks round.
 fn round() -> Controls {
-    Controls { aspect: ASPECT, round: true, ..Controls::default() }
+    Controls { aspect: ASPECT, look_around: true, ..Controls::default() }
 }
 
 /// A finger goes that way (picture heights, right and down) from beside the work, in a third of a second, and lifts.
@@ -62,14 +62,14 @@ fn a_pull_beside_the_work_turns_it_as_far_as_it_goes_and_nothing_else() {
             assert!((turn - wanted).abs() < THERE, "{way:?}: {:?} instead of {wanted:?}", state.turn);
         }
         assert_eq!(
-            (state.breath.speed, state.diagnostics.grabs, stage.turned()),
+            (state.breath.speed, state.diagnostics.grabs, stage.swipes()),
             (0.0, 0, 0),
             "no breath, hand or swipe"
         );
     }
     // Without having asked to look round, the same pull blows and turns nothing.
     let mut stage = stage("steel-fish");
-    let plain = Controls { round: false, ..round() };
+    let plain = Controls { look_around: false, ..round() };
     drag(&mut stage, &plain, [0.1, 0.0]);
     assert!(stage.snapshot().breath.speed > 0.0 && stage.snapshot().turn == [0.0; 2]);
 }
@@ -120,14 +120,14 @@ fn it_neither_jerks_nor_overshoots_and_with_less_motion_it_stops_with_the_finger
         .collect();
     assert!(way.windows(2).all(|w| w[1] >= w[0]) && way[0] > before, "it only goes on");
     assert!(*way.last().expect("steps") <= TURN * 0.3 + 1e-9, "and not beyond");
-    let calm = Controls { calm: true, ..round() };
+    let calm = Controls { reduced_motion: true, ..round() };
     let mut stage = self::stage("steel-fish");
     drag(&mut stage, &calm, [-0.3, 0.0]);
     let stopped = stage.snapshot().turn;
     wait(&mut stage, &calm, 240);
     assert_eq!(stage.snapshot().turn, stopped, "nothing moves by itself");
     assert!((stopped[0] - TURN * 0.3).abs() < 1e-9, "{stopped:?}");
-    stage.step(&Controls { round: false, ..calm }, None);
+    stage.step(&Controls { look_around: false, ..calm }, None);
     assert_eq!(stage.snapshot().turn, [0.0; 2], "and it is back at once");
 }
 
@@ -166,7 +166,7 @@ fn it_comes_home_when_nobody_is_there_when_it_is_asked_to_and_with_another_work(
     let mut stage = self::stage("steel-fish");
     drag(&mut stage, &round(), [-0.4, 0.1]);
     let far = stage.snapshot().turn[0];
-    let plain = Controls { round: false, ..round() };
+    let plain = Controls { look_around: false, ..round() };
     stage.step(&plain, None);
     assert!(stage.snapshot().turn[0] > 0.8 * far, "softly");
     wait(&mut stage, &plain, HOME);
@@ -222,7 +222,7 @@ fn the_attract_script_leads_it_softly_round_and_home_and_nowhere_where_less_moti
         !visited.attracts() && visited.snapshot().turn[0] < NEARLY * THERE[0],
         "and whoever comes has the work's own view"
     );
-    let (stage, turns) = led(&Controls { calm: true, ..plain });
+    let (stage, turns) = led(&Controls { reduced_motion: true, ..plain });
     assert!(
         stage.attracts() && turns.iter().all(|turn| *turn == [0.0; 2]),
         "nothing flies where less motion is wanted"
@@ -278,7 +278,7 @@ fn a_record_of_it_is_the_same_run_to_the_bit() {
         let t = f64::from(step) / 240.0;
         let presses = if t < 1.0 { vec![Press { id: 1, at: [BESIDE[0] + 0.2 * t, BESIDE[1]] }] } else { Vec::new() };
         stage.step(&Controls { presses, hold: (1.5..3.0).contains(&t), aim: Some([0.3, 0.4]), ..round() }, None);
-        recording.note(&stage);
+        recording.record(&stage);
         turns.push(stage.snapshot().turn);
     }
     recording.end(&stage);

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
-use soffio_config::{Config, Group};
+use soffio_config::{Config, ExhibitGroup};
 use soffio_exhibit::{self as exhibit, Exhibit, Label};
 use soffio_kiosk::egui::{self, Rect, pos2};
 use soffio_kiosk::pages::canvas::BUTTON_MM;
@@ -14,11 +14,11 @@ use soffio_kiosk::pages::menu::{Menu, Tile, tiles};
 use soffio_kiosk::pages::overlay::{BreathInput, Overlay, Scene, SoundState};
 use soffio_kiosk::pages::ui_strings::{TextId, Translations};
 use soffio_kiosk::step::captions::Captions;
-use soffio_kiosk::venue::house::House;
-use soffio_kiosk::venue::shelf::Work;
+use soffio_kiosk::venue::catalog::CatalogEntry;
+use soffio_kiosk::venue::state::VenueState;
+use soffio_kiosk::visitor::accessibility::AccessibilitySettings;
+use soffio_kiosk::visitor::accessibility::TextSettings;
 use soffio_kiosk::visitor::input::Request;
-use soffio_kiosk::visitor::needs::Needs;
-use soffio_kiosk::visitor::needs::Reading;
 use soffio_simulation::{Command, Settings, Simulation, Snapshot, StepInput};
 use soffio_sound::SoundCommand;
 
@@ -26,10 +26,10 @@ use soffio_sound::SoundCommand;
 const POINTS_PER_MM: f32 = 2.0;
 /// Shapes of glass, points.
 pub const GLASSES: [[f32; 2]; 4] = [[1920.0, 1080.0], [1280.0, 720.0], [1080.0, 1920.0], [2560.0, 1080.0]];
-const READINGS: [Reading; 3] = [
-    Reading { large: false, contrast: false },
-    Reading { large: true, contrast: false },
-    Reading { large: true, contrast: true },
+const READINGS: [TextSettings; 3] = [
+    TextSettings { large: false, contrast: false },
+    TextSettings { large: true, contrast: false },
+    TextSettings { large: true, contrast: true },
 ];
 
 /// The shipped texts.
@@ -51,17 +51,17 @@ pub struct Before {
     pub glass: [f32; 2],
     pub languages: Vec<String>,
     pub language: String,
-    pub needs: Needs,
+    pub accessibility: AccessibilitySettings,
     pub rests: Option<([f64; 2], f64)>,
     pub speech: Option<bool>,
     pub overlay: Overlay,
     pub menu: Menu,
     pub time: f64,
     pub activity: u64,
-    pub works: usize,
-    pub groups: Vec<Group>,
+    pub exhibits: usize,
+    pub groups: Vec<ExhibitGroup>,
     /// Real works with their pictures, where there are any.
-    pub shelf: Vec<Work>,
+    pub shelf: Vec<CatalogEntry>,
     pub thumbnails: Vec<(String, egui::TextureHandle)>,
     pub hears: bool,
     pub breath: bool,
@@ -69,7 +69,7 @@ pub struct Before {
     pub captions: Vec<String>,
     pub silent: bool,
     pub leaves_in: Option<f64>,
-    pub house: House,
+    pub house: VenueState,
     /// What is written on the glass.
     pub said: Vec<String>,
 }
@@ -86,15 +86,15 @@ impl Before {
             glass,
             language: languages[0].clone(),
             languages,
-            needs: Needs::default(),
+            accessibility: AccessibilitySettings::default(),
             rests: None,
             speech: Some(false),
             overlay: Overlay::default(),
             menu: Menu::default(),
             time: 1.0,
             activity: 0,
-            works: 21,
-            groups: Group::shipped(),
+            exhibits: 21,
+            groups: ExhibitGroup::shipped(),
             shelf: Vec::new(),
             thumbnails: Vec::new(),
             hears: true,
@@ -103,7 +103,7 @@ impl Before {
             captions: Vec::new(),
             silent: false,
             leaves_in: None,
-            house: House::default(),
+            house: VenueState::default(),
             said: Vec::new(),
         }
     }
@@ -134,7 +134,7 @@ impl Before {
         let input = egui::RawInput { screen_rect: Some(picture), ..egui::RawInput::default() };
         self.menu.update(self.time, self.activity, self.moment.breath.estimate.speed > 0.0);
         let tiles: Vec<Tile> = match self.shelf.is_empty() {
-            true => (0..self.works)
+            true => (0..self.exhibits)
                 .map(|i| Tile { id: format!("work-{i}"), title: format!("Work {i}"), picture: None, shown: i == 0 })
                 .collect(),
             false => tiles(&self.context, &self.shelf, &mut self.thumbnails, &self.exhibit.folder, &self.language),
@@ -166,7 +166,7 @@ impl Before {
             language: &self.language,
             translations: texts(),
             time: self.time,
-            accessibility: self.needs,
+            accessibility: self.accessibility,
             dwell: self.rests,
             tiles: &tiles,
             groups: &self.groups,
@@ -191,7 +191,7 @@ impl Before {
         let request = self.look().into_iter().find(|(rect, _)| rect.contains(at)).map(|(_, request)| request);
         match request {
             Some(Request::Menu) => self.menu.toggle(),
-            Some(Request::Leaf(by)) => self.menu.turn_page(by),
+            Some(Request::Page(by)) => self.menu.turn_page(by),
             Some(Request::Language(i)) => self.language = self.languages[i].clone(),
             _ => {}
         }
@@ -224,8 +224,8 @@ fn every_button_is_large_enough_apart_and_on_the_glass_in_every_language() {
         for glass in GLASSES {
             for reading in READINGS {
                 let mut visitor = Before::new(&exhibit, glass);
-                visitor.needs.reading = reading;
-                visitor.needs.round = reading.contrast;
+                visitor.accessibility.text = reading;
+                visitor.accessibility.look_around = reading.contrast;
                 for language in visitor.languages.clone() {
                     visitor.language = language.clone();
                     for open in [false, true] {
@@ -258,18 +258,24 @@ fn the_page_is_reached_and_left_by_finger_and_everything_on_it_is_found() {
         assert_eq!(visitor.press(more), Some(Request::Menu));
         assert!(visitor.menu.open);
         let mut found: Vec<Request> = Vec::new();
-        for _ in 0..visitor.works {
+        for _ in 0..visitor.exhibits {
             let buttons = visitor.look();
             found.extend(buttons.iter().map(|(_, request)| *request));
-            let next = buttons.iter().find(|(_, request)| *request == Request::Leaf(1));
+            let next = buttons.iter().find(|(_, request)| *request == Request::Page(1));
             let Some((rect, _)) = next else { break };
             let at = rect.center();
-            assert_eq!(visitor.press(at), Some(Request::Leaf(1)), "{glass:?}");
+            assert_eq!(visitor.press(at), Some(Request::Page(1)), "{glass:?}");
         }
         let languages = (0..visitor.languages.len()).map(Request::Language);
-        let rest = [Request::Louder(1), Request::Louder(-1), Request::Large, Request::Contrast, Request::Listen];
-        let rest = rest.into_iter().chain([Request::PressOnce, Request::Calm, Request::Round, Request::Speak]);
-        for wanted in (0..visitor.works).map(Request::Work).chain(languages).chain(rest).chain([Request::Menu]) {
+        let rest =
+            [Request::Louder(1), Request::Louder(-1), Request::Large, Request::Contrast, Request::ToggleMicrophone];
+        let rest = rest.into_iter().chain([
+            Request::PressOnce,
+            Request::ReducedMotion,
+            Request::LookAround,
+            Request::ReadAloud,
+        ]);
+        for wanted in (0..visitor.exhibits).map(Request::Exhibit).chain(languages).chain(rest).chain([Request::Menu]) {
             assert!(found.contains(&wanted), "{glass:?}: {wanted:?} is nowhere");
         }
         // Beside all buttons a press is nothing: neither a breath nor a way out.
@@ -402,22 +408,22 @@ fn works_that_have_room_on_one_leaf_are_not_parted() {
         let height = height as f32;
         let mut visitor = Before::new(&exhibit, [16.0 / 9.0 * height, height]);
         visitor.menu.toggle();
-        visitor.works = works;
-        visitor.groups[0].works = vec!["work-0".into()];
+        visitor.exhibits = works;
+        visitor.groups[0].exhibits = vec!["work-0".into()];
         let buttons = visitor.look();
         let of_the_page = |request: &Request| {
-            matches!(request, Request::Work(_) | Request::Leaf(_) | Request::Menu | Request::Nothing)
+            matches!(request, Request::Exhibit(_) | Request::Page(_) | Request::Menu | Request::Nothing)
         };
         let bar = buttons.iter().filter(|(_, request)| !of_the_page(request)).map(|(rect, _)| rect.top());
         let bar = bar.reduce(f32::min).expect("switches in the bar");
-        let first = buttons.iter().find(|(_, request)| *request == Request::Work(0)).expect("the first work").0;
+        let first = buttons.iter().find(|(_, request)| *request == Request::Exhibit(0)).expect("the first work").0;
         // A tile is 9/16 as high as wide and 2.2 em more, each of the two headings 2.2 em; an em lies below every row.
         let em = (first.height() - 9.0 / 16.0 * first.width()) / 2.2;
         let rows = 1 + (works - 1).div_ceil(COLUMNS);
         let all = 2.0 * 2.2 * em + rows as f32 * (first.height() + em);
         let room = bar - (first.top() - 2.2 * em);
         if (all - room).abs() > ROUNDING {
-            let turns = buttons.iter().any(|(_, request)| *request == Request::Leaf(1));
+            let turns = buttons.iter().any(|(_, request)| *request == Request::Page(1));
             assert_eq!(turns, all > room, "{works} works on {height} points: {all} of {room}");
             *(if turns { &mut parted } else { &mut whole }) += 1;
         }
@@ -433,18 +439,18 @@ fn works_stand_under_the_headings_of_their_groups_in_every_language() {
             let mut visitor = Before::new(&exhibit, glass);
             visitor.language = own.code().into();
             visitor.menu.toggle();
-            visitor.groups = Group::shipped();
-            visitor.groups[0].works = (0..21).step_by(2).map(|i| format!("work-{i}")).collect();
+            visitor.groups = ExhibitGroup::shipped();
+            visitor.groups[0].exhibits = (0..21).step_by(2).map(|i| format!("work-{i}")).collect();
             let (mut found, mut said) = (Vec::new(), Vec::new());
-            for _ in 0..visitor.works {
+            for _ in 0..visitor.exhibits {
                 let buttons = visitor.look();
                 said.extend(visitor.said.clone());
                 found.extend(buttons.iter().filter_map(|(_, request)| match request {
-                    Request::Work(index) => Some(*index),
+                    Request::Exhibit(index) => Some(*index),
                     _ => None,
                 }));
-                let Some((rect, _)) = buttons.iter().find(|(_, request)| *request == Request::Leaf(1)) else { break };
-                if found.len() >= visitor.works {
+                let Some((rect, _)) = buttons.iter().find(|(_, request)| *request == Request::Page(1)) else { break };
+                if found.len() >= visitor.exhibits {
                     break;
                 }
                 let at = rect.center();
@@ -467,7 +473,7 @@ fn whoever_need_not_hold_is_not_told_to_in_any_language() {
     for own in texts().languages() {
         let mut visitor = Before::new(&exhibit, GLASSES[0]);
         visitor.language = own.code().into();
-        visitor.needs.press_once = true;
+        visitor.accessibility.press_once = true;
         for (hears, breath, open) in [(false, true, false), (false, false, false), (true, true, true)] {
             (visitor.hears, visitor.breath, visitor.menu.open) = (hears, breath, open);
             (0..20).for_each(|_| {
@@ -524,7 +530,7 @@ fn what_is_heard_is_written_and_what_is_over_is_not() {
         if struck.is_none() && sounds.iter().any(|sound| matches!(sound, SoundCommand::Strike(_))) {
             struck = Some(step);
         }
-        captions.note(&exhibit, sounds, step);
+        captions.update(&exhibit, sounds, step);
         if step == 99 {
             assert_eq!(captions.shown(&exhibit, step), [""; 0], "nothing is heard yet");
         }
@@ -536,7 +542,7 @@ fn what_is_heard_is_written_and_what_is_over_is_not() {
     for step in 0..=struck + 1 {
         let blow = (step == 100).then_some(Command::Blow(Some(8.0)));
         again.step(&StepInput { commands: blow.as_slice(), ..StepInput::default() });
-        captions.note(&exhibit, again.sounds(), step);
+        captions.update(&exhibit, again.sounds(), step);
     }
     let shown = captions.shown(&exhibit, struck + 1);
     assert!(shown.len() == 2, "chime and wind: {shown:?}");

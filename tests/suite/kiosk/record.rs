@@ -51,7 +51,7 @@ fn day(path: &Path) -> [String; 2] {
             },
             None,
         );
-        recording.note(&stage);
+        recording.record(&stage);
     }
     assert!(stage.attracts(), "nobody was there for four seconds");
     hashes.push(format!("{:016x}", stage.state_hash()));

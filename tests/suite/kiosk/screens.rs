@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use image::{RgbaImage, imageops};
 use soffio_config::Config;
 use soffio_kiosk::pages::languages::{languages_without_glyphs, offered};
-use soffio_kiosk::venue::shelf::{THUMBNAIL, Work, id};
-use soffio_kiosk::visitor::needs::Needs;
-use soffio_kiosk::visitor::needs::Reading;
+use soffio_kiosk::venue::catalog::{CatalogEntry, THUMBNAIL, id};
+use soffio_kiosk::visitor::accessibility::AccessibilitySettings;
+use soffio_kiosk::visitor::accessibility::TextSettings;
 use soffio_offline::pictures::{Pictures, write_png};
 use soffio_simulation::{Command, StepInput};
 
@@ -24,23 +24,28 @@ const SHRUNK: (u32, u32) = (800, 450);
 type Screen = (&'static str, fn(&mut Before));
 
 /// Of a visitor who needs much.
-const MANY: Needs =
-    Needs { reading: Reading { large: true, contrast: true }, press_once: true, dwell: true, calm: true, round: false };
+const MANY: AccessibilitySettings = AccessibilitySettings {
+    text: TextSettings { large: true, contrast: true },
+    press_once: true,
+    dwell: true,
+    reduced_motion: true,
+    look_around: false,
+};
 
 const SCREENS: [Screen; 5] = [
     ("front-languages", |_| ()),
     ("hold-languages", |visitor| visitor.hears = false),
     ("more-languages", |visitor| visitor.menu.open = true),
-    ("front-large", |visitor| visitor.needs = MANY),
+    ("front-large", |visitor| visitor.accessibility = MANY),
     ("more-large", |visitor| {
         visitor.menu.open = true;
-        visitor.needs = MANY;
+        visitor.accessibility = MANY;
     }),
 ];
 
 /// The shipped works, with labels and pictures.
-fn shelf() -> Vec<Work> {
-    let work = |folder: PathBuf| Work {
+fn shelf() -> Vec<CatalogEntry> {
+    let work = |folder: PathBuf| CatalogEntry {
         id: id(&folder),
         labels: load(&id(&folder)).labels.clone(),
         thumbnail: image::open(folder.join(THUMBNAIL))
@@ -77,8 +82,8 @@ fn the_manuals_pictures_are_made() {
     for (name, come) in SCREENS {
         let mut sheet = RgbaImage::new(SHRUNK.0, SHRUNK.1 * languages.len() as u32);
         for (place, language) in languages.iter().enumerate() {
-            (visitor.language, visitor.needs, visitor.hears, visitor.menu.open) =
-                (language.clone(), Needs::default(), true, false);
+            (visitor.language, visitor.accessibility, visitor.hears, visitor.menu.open) =
+                (language.clone(), AccessibilitySettings::default(), true, false);
             come(&mut visitor);
             let mut laid_out = visitor.lay_out();
             for _ in 0..60 {

@@ -5,8 +5,8 @@ use std::time::Duration;
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
 use soffio_kiosk::step::stage::Stage;
-use soffio_kiosk::venue::shelf::{Offer, Places, Work};
-use soffio_kiosk::venue::site::{News, Overrides, Site, SiteFile, waits_for_restart};
+use soffio_kiosk::venue::catalog::{Catalog, CatalogEntry, ExhibitSource};
+use soffio_kiosk::venue::site::{ConfigEvent, ConfigWatcher, Overrides, Site, waits_for_restart};
 use soffio_simulation::{Profile, Settings};
 
 /// Far longer than the debounce time: only a watcher that misses the change takes so long.
@@ -17,13 +17,13 @@ fn a_good_file_is_taken_over_and_a_broken_one_refused_with_its_diagnostics() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("kiosk.toml");
     std::fs::write(&file, "").expect("writable");
-    let site = SiteFile::watch(&file);
+    let site = ConfigWatcher::watch(&file);
     std::fs::write(&file, "[visit]\nbreath = false\n[opening]\nhours = [\"Tue-Sun 10:00-18:00\"]\n").expect("writable");
-    let Some(News::Good(config)) = site.wait(LONG) else { panic!("a good change is noticed") };
-    assert!(!config.visit.breath && config.opening.hours.len() == 1);
+    let Some(ConfigEvent::Loaded(loaded)) = site.wait(LONG) else { panic!("a good change is noticed") };
+    assert!(!loaded.config.visit.breath && loaded.config.opening.hours.len() == 1);
 
     std::fs::write(&file, "[visit]\nbreth = false\n[audio]\nvolume_db = 20\n").expect("writable");
-    let Some(News::Bad(report)) = site.wait(LONG) else { panic!("a broken change is noticed") };
+    let Some(ConfigEvent::Rejected(report)) = site.wait(LONG) else { panic!("a broken change is noticed") };
     for word in ["kiosk.toml:2:1", "did you mean `breath`?", "kiosk.toml:4:13", "-60 to 0 dB"] {
         assert!(report.contains(word), "{word} is not in {report}");
     }
@@ -33,9 +33,9 @@ fn a_good_file_is_taken_over_and_a_broken_one_refused_with_its_diagnostics() {
     let new = folder.path().join("kiosk.toml~");
     std::fs::write(&new, "[breath]\ngain = 2.0\n").expect("writable");
     std::fs::rename(&new, &file).expect("movable");
-    let Some(News::Good(config)) = site.wait(LONG) else { panic!("a new file is noticed") };
-    assert_eq!(config.breath.gain, 2.0);
-    assert!(config.visit.breath, "what is not said any more is the default again");
+    let Some(ConfigEvent::Loaded(loaded)) = site.wait(LONG) else { panic!("a new file is noticed") };
+    assert_eq!(loaded.config.breath.gain, 2.0);
+    assert!(loaded.config.visit.breath, "what is not said any more is the default again");
 }
 
 #[test]
@@ -62,22 +62,23 @@ fn changed_breath_settings_begin_the_work_anew_and_others_leave_it_alone() {
     let mut stage = Stage::new(pendulum, Settings::default(), None, None);
     let controls = Default::default();
     (0..100).for_each(|_| stage.step(&controls, None));
-    stage.settle(Settings::default(), Some(30.0));
+    stage.reconfigure(Settings::default(), Some(30.0));
     assert_eq!((stage.steps(), stage.snapshot().step), (100, 100));
-    stage.settle(Settings { profile: Profile::Physical, ..Settings::default() }, Some(30.0));
+    stage.reconfigure(Settings { profile: Profile::Physical, ..Settings::default() }, Some(30.0));
     assert_eq!((stage.steps(), stage.snapshot().step), (100, 0));
 }
 
 #[test]
 fn works_are_offered_in_the_new_order_at_once() {
-    let work = |id: &str| Work { id: id.into(), folder: id.into(), labels: Default::default(), thumbnail: None };
+    let work =
+        |id: &str| CatalogEntry { id: id.into(), folder: id.into(), labels: Default::default(), thumbnail: None };
     let show = |ids: &[&str]| ids.iter().map(|id| (*id).to_owned()).collect::<Vec<_>>();
-    let mut offer = Offer::new(&Places::All { folder: "x".into(), show: show(&["a", "*"]) });
-    ["c", "a", "b"].into_iter().for_each(|id| offer.put(work(id)));
-    let ids = |offer: &Offer| offer.works().iter().map(|work| work.id.clone()).collect::<Vec<_>>();
+    let mut offer = Catalog::new(&ExhibitSource::All { folder: "x".into(), show: show(&["a", "*"]) });
+    ["c", "a", "b"].into_iter().for_each(|id| offer.insert(work(id)));
+    let ids = |offer: &Catalog| offer.entries().iter().map(|work| work.id.clone()).collect::<Vec<_>>();
     assert_eq!(ids(&offer), ["a", "b", "c"]);
     offer.reorder(&show(&["c", "a"]));
     assert_eq!(ids(&offer), ["c", "a"]);
-    offer.put(work("b"));
+    offer.insert(work("b"));
     assert_eq!(ids(&offer), ["c", "a"], "what is not listed is not offered");
 }

@@ -6,17 +6,20 @@ use std::sync::Arc;
 use soffio_config::{Config, Pin};
 use soffio_exhibit as exhibit;
 use soffio_kiosk::egui::{self, Event, FontId, Key, Modifiers, PointerButton, Pos2, Rect, Shape, pos2};
-use soffio_kiosk::fleet::kept::Kept;
-use soffio_kiosk::live::Frame;
+use soffio_kiosk::fleet::persisted::PersistedState;
+use soffio_kiosk::live::LiveState;
 use soffio_kiosk::pages::fonts;
+use soffio_kiosk::pages::languages::{languages_without_glyphs, staff_texts};
 use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
-use soffio_kiosk::staff::log::{KEPT, LONGEST, Line, Log};
-use soffio_kiosk::staff::{Page, Sight, Staff, Vitals, Wish};
+use soffio_kiosk::staff::log::{CAPACITY, LONGEST, Log, LogLine};
+use soffio_kiosk::staff::{Page, PanelInput, StaffAction, StaffPanel, WindowStats};
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
-use soffio_kiosk::venue::house::House;
+use soffio_kiosk::venue::state::VenueState;
 use soffio_kiosk::visitor::input::{Phase, Signal};
 use soffio_simulation::{InspectionScope, Settings};
+
+use super::pages::texts;
 
 const GLASS: [f32; 2] = [1280.0, 720.0];
 /// Points a millimetre of a 32-inch glass with that picture.
@@ -29,7 +32,7 @@ fn pin(digits: &str) -> Pin {
 /// Waits for the hash.
 fn answered(gate: &mut Gate, time: f64) {
     while gate.checks() {
-        gate.tend(time);
+        gate.poll(time);
         std::thread::yield_now();
     }
 }
@@ -91,17 +94,17 @@ fn nothing_opens_a_gate_without_a_pin_and_digits_are_digits() {
 pub struct Before {
     pub context: egui::Context,
     stage: Stage,
-    pub staff: Staff,
+    pub staff: StaffPanel,
     site: Config,
-    house: House,
-    kept: Kept,
+    house: VenueState,
+    persisted: PersistedState,
     log: Log,
     file: Option<std::path::PathBuf>,
     folder: Option<std::path::PathBuf>,
     time: f64,
     activity: u64,
     on_desk: bool,
-    work_says: Option<String>,
+    exhibit_problem: Option<String>,
     /// What is written, where, and in which font.
     words: Vec<(String, Rect, FontId)>,
 }
@@ -118,28 +121,28 @@ impl Before {
         (0..60).for_each(|_| stage.step(&controls, None));
         let mut site = Config::default();
         site.exhibits.folder = folder.parent().expect("a parent").into();
-        let mut staff = Staff::default();
+        let mut staff = StaffPanel::default();
         staff.toggle();
         Self {
             context,
             stage,
             staff,
             site,
-            house: House::default(),
-            kept: Kept::default(),
+            house: VenueState::default(),
+            persisted: PersistedState::default(),
             log: Log::default(),
             file: None,
             folder: None,
             time: 1.0,
             activity: 0,
             on_desk: true,
-            work_says: None,
+            exhibit_problem: None,
             words: Vec::new(),
         }
     }
 
     /// One picture with these events; what is asked for.
-    fn look(&mut self, events: Vec<Event>) -> Vec<Wish> {
+    fn look(&mut self, events: Vec<Event>) -> Vec<StaffAction> {
         let (wishes, mut laid_out) = self.lay_out(events);
         laid_out.textures_delta.clear();
         self.words.clear();
@@ -148,28 +151,30 @@ impl Before {
     }
 
     /// The same, and what is to be drawn.
-    pub fn lay_out(&mut self, events: Vec<Event>) -> (Vec<Wish>, egui::FullOutput) {
-        let look = self.staff.look(&self.site);
+    pub fn lay_out(&mut self, events: Vec<Event>) -> (Vec<StaffAction>, egui::FullOutput) {
+        let look = self.staff.inspection(&self.site);
         let mut exhibit = self.stage.exhibit().clone();
         if let Some(folder) = &self.folder {
             Arc::make_mut(&mut exhibit).folder.clone_from(folder);
         }
         let inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
-        let frame = Frame { exhibit: exhibit.clone(), hears: true, inspection, ..Frame::new(&self.stage) };
-        let vitals = Vitals { adapter: "none", frame_s: 0.02, size: [1280, 720], time: self.time, sight_s: 0.0 };
-        let sight = Sight {
+        let frame = LiveState { exhibit: exhibit.clone(), hears: true, inspection, ..LiveState::new(&self.stage) };
+        let vitals =
+            WindowStats { adapter: "none", frame_s: 0.02, size: [1280, 720], time: self.time, onset_latency_s: 0.0 };
+        let sight = PanelInput {
             frame: &frame,
             view: exhibit.view(16.0 / 9.0),
             vitals,
             site: &self.site,
-            site_says: &[],
-            work_says: self.work_says.as_deref(),
+            config_problems: &[],
+            exhibit_problem: self.exhibit_problem.as_deref(),
             file: self.file.as_deref(),
-            works: &["steel-fish", "wind-chimes"],
-            house: &self.house,
-            kept: &self.kept,
+            exhibit_ids: &["steel-fish", "wind-chimes"],
+            venue: &self.house,
+            persisted: &self.persisted,
             log: &self.log,
             activity: self.activity,
+            texts: staff_texts(texts(), &self.site, &[]),
             on_desk: self.on_desk,
             points_per_mm: POINTS_PER_MM,
         };
@@ -197,7 +202,7 @@ impl Before {
     }
 
     /// Presses words with the pointer; what that asks for.
-    fn press(&mut self, words: &str) -> Vec<Wish> {
+    fn press(&mut self, words: &str) -> Vec<StaffAction> {
         self.look(Vec::new());
         let at = self.find(words);
         self.activity += 1;
@@ -236,7 +241,7 @@ fn every_page_is_drawn_for_every_kind_of_work_and_says_what_it_is_for() {
         (Page::Wind, "fastest, m/s"),
         (Page::Sound, "chime-brass"),
         (Page::Parameters, "Drag a number"),
-        (Page::Microphone, "floor of the room"),
+        (Page::Microphone, "noise floor"),
         (Page::Test, "Loudspeakers"),
         (Page::Log, "no lines"),
     ];
@@ -256,11 +261,41 @@ fn every_page_is_drawn_for_every_kind_of_work_and_says_what_it_is_for() {
 }
 
 #[test]
+fn the_panel_speaks_the_language_of_the_staff_and_writes_all_of_it() {
+    let cannot = languages_without_glyphs(texts());
+    for (code, tab) in
+        [("de", "Exponate"), ("fr", "Œuvres"), ("it", "Opere"), ("es", "Obras"), ("ko", "작품"), ("ja", "作品")]
+    {
+        let mut staff = Before::new("steel-fish");
+        staff.site.languages.first = "en".into();
+        staff.site.staff.language = code.into();
+        let usual = staff_texts(texts(), &staff.site, &cannot).code();
+        assert_eq!(usual, if cannot.iter().any(|cannot| cannot == code) { "en" } else { code });
+        if usual == "en" {
+            continue;
+        }
+        for page in Page::ALL {
+            staff.staff.turn_to(page);
+            (0..3).for_each(|_| drop(staff.look(Vec::new())));
+            assert!(staff.says(tab), "{code}, {page:?}: {:?}", staff.said());
+            for (text, _, font) in &staff.words {
+                let can = staff.context.fonts_mut(|fonts| fonts.has_glyphs(font, text));
+                assert!(can, "{code}, {page:?}: {font:?} has not all of \"{text}\"");
+            }
+        }
+        staff.site.staff.language.clear();
+        staff.look(Vec::new());
+        assert!(staff.says("Exhibits"), "without a language of its own it has that of the visitors");
+    }
+    assert_eq!(staff_texts(texts(), &Config::default(), &cannot).code(), "en", "where nothing is configured");
+}
+
+#[test]
 fn the_bodies_page_shows_each_joint_with_its_error_and_nothing_is_looked_at_elsewhere() {
     let mut staff = Before::new("steel-fish");
-    assert_eq!(staff.staff.look(&staff.site), InspectionScope::Nothing);
+    assert_eq!(staff.staff.inspection(&staff.site), InspectionScope::Nothing);
     staff.staff.turn_to(Page::Bodies);
-    assert_eq!(staff.staff.look(&staff.site), InspectionScope::Bodies);
+    assert_eq!(staff.staff.inspection(&staff.site), InspectionScope::Bodies);
     staff.look(Vec::new());
     staff.look(Vec::new());
     let exhibit = staff.stage.exhibit().clone();
@@ -276,7 +311,7 @@ fn the_bodies_page_shows_each_joint_with_its_error_and_nothing_is_looked_at_else
     let load = seen.joints[cup].load.expect("a joint of lengths");
     assert!((load - weight).abs() < 0.1 * weight, "{load} N of {weight} N");
     staff.staff.toggle();
-    assert_eq!(staff.staff.look(&staff.site), InspectionScope::Nothing, "nobody looks at a closed panel");
+    assert_eq!(staff.staff.inspection(&staff.site), InspectionScope::Nothing, "nobody looks at a closed panel");
 }
 
 #[test]
@@ -311,7 +346,7 @@ fn with_a_pin_the_panel_asks_for_it_and_opens_by_keyboard_and_by_finger() {
         staff.site.staff.pin = pin("2718");
         staff.look(Vec::new());
         assert!(!staff.says("joint error") && staff.says("PIN"), "{:?}", staff.said());
-        assert_eq!(staff.staff.look(&staff.site), InspectionScope::Nothing);
+        assert_eq!(staff.staff.inspection(&staff.site), InspectionScope::Nothing);
         if by_finger {
             for digit in ["2", "7", "1", "8", "OK"] {
                 staff.press(digit);
@@ -328,7 +363,7 @@ fn with_a_pin_the_panel_asks_for_it_and_opens_by_keyboard_and_by_finger() {
         staff.look(Vec::new());
         staff.look(Vec::new());
         assert!(staff.says("joint error"), "by finger: {by_finger}: {:?}", staff.said());
-        assert_eq!(staff.press("Clean the glass"), [Wish::Clean]);
+        assert_eq!(staff.press("Clean the glass"), [StaffAction::Clean]);
         staff.staff.toggle();
         staff.staff.toggle();
         staff.look(Vec::new());
@@ -357,7 +392,7 @@ fn without_a_pin_the_gallery_panel_shows_and_changes_nothing() {
     assert_eq!(staff.press("Mute"), []);
     assert!(staff.says("No PIN is set"), "{:?}", staff.said());
     staff.on_desk = true;
-    assert_eq!(staff.press("End the kiosk"), [Wish::Close]);
+    assert_eq!(staff.press("End the kiosk"), [StaffAction::Close]);
     staff.staff.turn_to(Page::Test);
     staff.on_desk = false;
     assert_eq!(staff.press("Left"), []);
@@ -390,7 +425,7 @@ fn the_order_is_changed_by_buttons_and_saved_with_its_comments() {
     staff.site.exhibits.show = vec!["steel-fish".into(), "wind-chimes".into()];
     staff.file = Some(file.clone());
     staff.staff.turn_to(Page::Exhibits);
-    assert_eq!(staff.press("wind-chimes"), [Wish::Show("wind-chimes".into())]);
+    assert_eq!(staff.press("wind-chimes"), [StaffAction::Show("wind-chimes".into())]);
     staff.press("+ pendulum");
     staff.press("\u{2193}");
     staff.press("Save the order");
@@ -403,12 +438,12 @@ fn the_order_is_changed_by_buttons_and_saved_with_its_comments() {
 fn a_number_that_is_dragged_is_saved_when_it_is_let_go_and_taken_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("exhibit.toml");
-    let text = "# a work\n[wind.room]\nspeed = \"0.3 m/s\" # a draught\n";
+    let text = "# a work\n[wind.ambient]\nspeed = \"0.3 m/s\" # a draught\n";
     std::fs::write(&file, text).expect("writable");
     let mut staff = Before::new("steel-fish");
     staff.folder = Some(folder.path().into());
     staff.staff.turn_to(Page::Parameters);
-    staff.press("wind.room");
+    staff.press("wind.ambient");
     // The group opens slowly.
     (0..60).for_each(|_| drop(staff.look(Vec::new())));
     let at = staff.find("0.3");
@@ -427,14 +462,14 @@ fn a_number_that_is_dragged_is_saved_when_it_is_let_go_and_taken_back() {
     staff.look(vec![button(at + egui::vec2(100.0, 0.0), false)]);
     let saved = std::fs::read_to_string(&file).expect("readable");
     assert!(
-        saved.starts_with("# a work\n[wind.room]\nspeed = \"0.") && saved.ends_with(" m/s\" # a draught\n"),
+        saved.starts_with("# a work\n[wind.ambient]\nspeed = \"0.") && saved.ends_with(" m/s\" # a draught\n"),
         "{saved}"
     );
     assert_ne!(saved, text);
-    staff.work_says = Some("exhibit.toml:3:9: no such speed".into());
+    staff.exhibit_problem = Some("exhibit.toml:3:9: no such speed".into());
     staff.look(Vec::new());
-    assert!(staff.says("no such speed") && staff.says("the last good one is on show"), "{:?}", staff.said());
-    staff.press("Take back (1)");
+    assert!(staff.says("no such speed") && staff.says("the last good version is on show"), "{:?}", staff.said());
+    staff.press("Undo (1)");
     assert_eq!(std::fs::read_to_string(&file).expect("readable"), text);
 }
 
@@ -443,26 +478,29 @@ fn sounds_are_tried_and_a_finger_is_shown_where_it_is() {
     let mut staff = Before::new("steel-fish");
     staff.staff.turn_to(Page::Sound);
     let wishes = staff.press("bell");
-    assert!(matches!(wishes.as_slice(), [Wish::Try(trial)] if trial.pan == 0.0), "{wishes:?}");
+    assert!(matches!(wishes.as_slice(), [StaffAction::PlaySound(audition)] if audition.pan == 0.0), "{wishes:?}");
     staff.staff.turn_to(Page::Test);
     let wishes = staff.press("Right");
-    assert!(matches!(wishes.as_slice(), [Wish::Try(trial)] if trial.pan == 1.0), "{wishes:?}");
+    assert!(matches!(wishes.as_slice(), [StaffAction::PlaySound(audition)] if audition.pan == 1.0), "{wishes:?}");
     for (finger, x) in [(3, 0.1), (4, 0.3)] {
-        staff.staff.feel(&Signal::Touch { finger, at: [x, 0.5], phase: Phase::Down });
-        staff.staff.feel(&Signal::Touch { finger, at: [x + 0.05, 0.5], phase: Phase::Move });
+        staff.staff.handle_signal(&Signal::Touch { finger, at: [x, 0.5], phase: Phase::Down });
+        staff.staff.handle_signal(&Signal::Touch { finger, at: [x + 0.05, 0.5], phase: Phase::Move });
     }
     staff.look(Vec::new());
     assert!(staff.says("1: 0.150, 0.500") && staff.says("2: 0.350, 0.500"), "{:?}", staff.said());
-    assert!(staff.staff.feel(&Signal::Touch { finger: 3, at: [0.15, 0.5], phase: Phase::Up }), "no press on the work");
+    assert!(
+        staff.staff.handle_signal(&Signal::Touch { finger: 3, at: [0.15, 0.5], phase: Phase::Up }),
+        "no press on the work"
+    );
     staff.look(Vec::new());
     assert!(!staff.says("1: 0.150, 0.500") && staff.says("2: 0.350, 0.500"), "{:?}", staff.said());
     // Pictures of the display lie over everything, and each press turns to the next: grey, edges, five colours.
-    staff.press("Show them");
+    staff.press("Show test pictures");
     for picture in 0..7 {
         staff.look(Vec::new());
         assert!(!staff.says("Loudspeakers"), "picture {picture}: {:?}", staff.said());
-        staff.staff.feel(&Signal::Button(true));
-        staff.staff.feel(&Signal::Button(false));
+        staff.staff.handle_signal(&Signal::Button(true));
+        staff.staff.handle_signal(&Signal::Button(false));
     }
     staff.look(Vec::new());
     assert!(staff.says("Loudspeakers"), "{:?}", staff.said());
@@ -471,14 +509,14 @@ fn sounds_are_tried_and_a_finger_is_shown_where_it_is() {
 #[test]
 fn the_log_keeps_its_last_lines_and_no_more() {
     let log = Log::default();
-    let line = |text: String| Line { time: jiff::civil::time(12, 0, 0, 0), level: tracing::Level::INFO, text };
-    (0..KEPT + 10).for_each(|i| log.push(line(format!("line {i}"))));
-    assert_eq!(log.lines().len(), KEPT);
+    let line = |text: String| LogLine { time: jiff::civil::time(12, 0, 0, 0), level: tracing::Level::INFO, text };
+    (0..CAPACITY + 10).for_each(|i| log.push(line(format!("line {i}"))));
+    assert_eq!(log.lines().len(), CAPACITY);
     assert_eq!(log.lines().front().map(|line| line.text.as_str()), Some("line 10"));
     log.push(line("é".repeat(3 * LONGEST)));
     assert_eq!(log.lines().back().map(|line| line.text.chars().count()), Some(LONGEST));
     let mut staff = Before::new("pendulum");
-    log.push(Line { level: tracing::Level::WARN, ..line("the microphone is lost".into()) });
+    log.push(LogLine { level: tracing::Level::WARN, ..line("the microphone is lost".into()) });
     staff.log = log;
     staff.staff.turn_to(Page::Log);
     (0..3).for_each(|_| drop(staff.look(Vec::new())));
@@ -491,14 +529,18 @@ fn the_log_keeps_its_last_lines_and_no_more() {
 fn a_press_on_the_panel_is_the_panels_and_one_beside_it_the_works() {
     let mut staff = Before::new("steel-fish");
     staff.look(Vec::new());
-    let press = |staff: &mut Staff, x| {
-        staff.feel(&Signal::Pointer([x, 0.5]));
-        staff.feel(&Signal::Button(true))
+    let press = |staff: &mut StaffPanel, x| {
+        staff.handle_signal(&Signal::Pointer([x, 0.5]));
+        staff.handle_signal(&Signal::Button(true))
     };
     // The panel is 500 of 1280 points wide.
     for (x, taken) in [(0.1, false), (0.6, false), (0.62, true), (0.99, true)] {
         assert_eq!(press(&mut staff.staff, x), taken, "{x}");
-        assert_eq!(staff.staff.feel(&Signal::Touch { finger: 1, at: [x, 0.5], phase: Phase::Down }), taken, "{x}");
+        assert_eq!(
+            staff.staff.handle_signal(&Signal::Touch { finger: 1, at: [x, 0.5], phase: Phase::Down }),
+            taken,
+            "{x}"
+        );
     }
     staff.staff.toggle();
     assert!(!press(&mut staff.staff, 0.9), "a closed panel takes nothing");

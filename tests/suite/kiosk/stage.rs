@@ -168,7 +168,7 @@ fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
     let quiet = BlowEstimate { reason: Reason::Quiet, floor_dbfs: -60.0, ..BlowEstimate::default() };
     let told = |health: &MicrophoneHealth| health.remedies().collect::<Vec<_>>().join("; ");
     let after = |health: &mut MicrophoneHealth, estimate: &BlowEstimate, steps: u64| {
-        (0..steps).for_each(|_| health.note(true, estimate));
+        (0..steps).for_each(|_| health.update(true, estimate));
         told(health)
     };
     assert_eq!(after(&mut health, &quiet, 100), "");
@@ -189,7 +189,7 @@ fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
     assert!(!health.is_silent());
     assert!(after(&mut health, &muted, 2 * 240).contains("mixer") && health.is_silent());
     // Without a microphone there is nothing to mend about it.
-    health.note(false, &BlowEstimate::default());
+    health.update(false, &BlowEstimate::default());
     assert_eq!(told(&health), "");
 }
 
@@ -326,7 +326,7 @@ fn a_command_acts_in_one_step_even_where_several_are_due() {
     let told: Vec<usize> = (0..3)
         .map(|_| {
             stage.step(&controls, None);
-            stage.told().commands.len()
+            stage.recorded_input().commands.len()
         })
         .collect();
     assert_eq!(told, [2, 0, 0]);
@@ -358,7 +358,7 @@ fn what_the_governor_chose_repeats_to_the_bit() {
         stage.step(&controls, None);
         // As on a machine that is too slow for dynamics from the second second on.
         let slow = step > 240 && controls.mode.is_none();
-        governor.note(if slow { 5e-3 } else { 5e-4 });
+        governor.record(if slow { 5e-3 } else { 5e-4 });
     }
     // Twice it tries dynamics again, after one and after two seconds.
     assert_eq!((governor.switches(), script.len()), (5, 6), "{script:?}");

@@ -1,25 +1,25 @@
-//! The files that a run writes: the trace of its first exhibit, and the record of all that it was told.
+//! Files that a run writes: the trace of its first exhibit, and the record of all inputs.
 
 use super::super::recording::Recording;
 use super::super::shared::trace_error;
 use crate::step::stage::Stage;
 use soffio_offline::trace::TraceWriter;
 
-/// Trace and record, where they are asked for.
+/// Trace and record, where requested.
 pub(super) struct Files {
     pub trace: Option<TraceWriter>,
     pub record: Option<Recording>,
 }
 
 impl Files {
-    /// A step has been done.
-    pub(super) fn note(&mut self, stage: &Stage) {
+    /// Records a step.
+    pub(super) fn record(&mut self, stage: &Stage) {
         if let Some(record) = &mut self.record {
-            record.note(stage);
+            record.record(stage);
         }
     }
 
-    /// Adds the present moment to the trace.
+    /// Adds the present state to the trace.
     pub(super) fn write_trace(&mut self, stage: &Stage) -> Result<(), String> {
         match &mut self.trace {
             Some(trace) => trace.push(stage.snapshot()).map_err(trace_error),
@@ -27,21 +27,21 @@ impl Files {
         }
     }
 
-    /// The run of the exhibit on show is over.
+    /// The run of the exhibit on show has ended.
     pub(super) fn end(&mut self, stage: &Stage) {
         if let Some(record) = &mut self.record {
             record.end(stage);
         }
     }
 
-    /// An exhibit begins at its start. A trace knows one run only and ends.
+    /// An exhibit starts. A trace ends, as it holds one run only.
     pub(super) fn begin(&mut self, stage: &Stage) {
         if let Some(record) = &mut self.record {
             record.begin(stage.exhibit(), *stage.settings());
         }
         if let Some(trace) = self.trace.take() {
             match trace.finish() {
-                Ok(_) => tracing::warn!("the trace ends here: the exhibit begins anew"),
+                Ok(_) => tracing::warn!("the trace ends here: the exhibit restarts"),
                 Err(error) => tracing::error!("{error}"),
             }
         }

@@ -1,10 +1,10 @@
-//! The thread itself: hears, steps, sounds and publishes, in this order, as often as a step is due.
+//! The thread itself: reads the microphone, steps, plays sounds and publishes, in this order, whenever a step is due.
 
-mod account;
 mod files;
-mod listening;
+mod microphone_input;
 mod motion;
 mod playback;
+mod publisher;
 
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
@@ -12,26 +12,26 @@ use std::time::Instant;
 
 use cpu_time::ThreadTime;
 
-use super::frame::Frame;
+use super::live_state::LiveState;
 use super::options::{Options, Report};
-use super::pace::Pacer;
 use super::recording::Recording;
 use super::shared::{Shared, local_time, lock};
+use super::step_scheduler::StepScheduler;
 use crate::step::command::Batch;
 use crate::step::controls::Controls;
 use crate::step::stage::Stage;
 use crate::venue::site::Site;
-use account::Account;
 use files::Files;
-use listening::Listening;
+use microphone_input::MicrophoneInput;
 use motion::MotionChoice;
 use playback::Playback;
+use publisher::Publisher;
 use soffio_devices::controllers::{Controllers, Reading};
 use soffio_exhibit::Exhibit;
 use soffio_offline::trace::TraceWriter;
 use soffio_simulation::{InspectionScope, Settings};
 
-/// What lives on the simulation thread.
+/// State of the simulation thread.
 pub(super) struct Thread {
     stage: Stage,
     site: Site,
@@ -40,9 +40,9 @@ pub(super) struct Thread {
     files: Files,
     motion: MotionChoice,
     playback: Playback,
-    listening: Listening,
+    microphone: MicrophoneInput,
     controllers: Controllers,
-    account: Account,
+    publisher: Publisher,
     shared: Arc<Shared>,
     wake: Box<dyn Fn() + Send>,
 }
@@ -56,14 +56,14 @@ impl Thread {
     ) -> Self {
         let site = options.site;
         Self {
-            account: Account::new(&stage),
+            publisher: Publisher::new(&stage),
             stage,
             limit: options.steps.unwrap_or(u64::MAX),
             recorded: options.recording.is_some(),
             files: Files { trace, record },
             motion: MotionChoice::new(options.mode, options.exhibit.motion),
             playback: Playback::start(&site, &options.exhibit, options.closed),
-            listening: Listening::new(options.closed),
+            microphone: MicrophoneInput::new(options.closed),
             controllers: Controllers::start(&site.controllers),
             site,
             shared,
@@ -74,12 +74,12 @@ impl Thread {
     pub(super) fn run(mut self) -> Result<Report, String> {
         self.files.write_trace(&self.stage)?;
         let began = Instant::now();
-        let mut pacer = Pacer::default();
+        let mut pacer = StepScheduler::default();
         while self.stage.steps() < self.limit && !self.shared.stop.load(Ordering::Relaxed) {
             let due = pacer.due(began.elapsed()).min(self.limit - self.stage.steps());
             if due > 0 {
                 let hears = self.advance(due)?;
-                self.account.load.dropped = pacer.dropped();
+                self.publisher.load.dropped = pacer.dropped();
                 self.publish(began + pacer.present(), hears);
             }
             std::thread::sleep(pacer.next().saturating_sub(began.elapsed()));
@@ -89,74 +89,74 @@ impl Thread {
             steps: self.stage.steps(),
             dropped: pacer.dropped(),
             xruns: self.playback.audio.status().xruns,
-            level_dba: Some(self.playback.loudness.view().level_db[1]).filter(|level| level.is_finite()),
+            level_dba: Some(self.playback.loudness.status().level_db[1]).filter(|level| level.is_finite()),
             impacts: self.stage.snapshot().diagnostics.impacts,
             state_hash: self.stage.state_hash(),
         })
     }
 
-    /// Does `due` steps with all that the microphone has heard by now; the first of them takes the commands. Says whether
-    /// anything listens.
+    /// Does `due` steps with all samples of the microphone so far; the first step takes the commands. Returns whether there is a
+    /// microphone or a recording.
     fn advance(&mut self, due: u64) -> Result<bool, String> {
         let (mut controls, batch, dropped) = {
             let mut inbox = lock(&self.shared.inbox);
             let (controls, batch) = inbox.take();
             (controls, batch, inbox.dropped())
         };
-        self.account.note_dropped(dropped);
-        let Batch { site, exhibit, chirp, lifts, commands, trial, words, loudness } = batch;
+        self.publisher.record_dropped(dropped);
+        let Batch { site, exhibit, self_test, lifts, commands, audition, words, loudness } = batch;
         if let Some(site) = site {
-            self.settle(*site);
+            self.reconfigure(*site);
         }
         if let Some(exhibit) = exhibit {
             self.swap(exhibit);
         }
-        add(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
+        add_controllers(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
         lifts.into_iter().for_each(|lift| self.stage.lift(lift));
         commands.into_iter().for_each(|command| self.stage.command(command));
-        self.listening.heard.clear();
-        self.listening.closed = controls.closed;
-        if chirp && self.site.breath {
-            self.listening.begin_chirp();
+        self.microphone.heard.clear();
+        self.microphone.closed = controls.closed;
+        if self_test && self.site.breath {
+            self.microphone.begin_self_test();
         }
-        self.listening.deaf = controls.deaf;
-        let (rate, chirps) = self.listening.hear(self.site.breath, &mut self.playback, &mut self.account.load);
+        self.microphone.ignore_microphone = controls.ignore_microphone;
+        let (rate, is_testing) = self.microphone.read(self.site.breath, &mut self.playback, &mut self.publisher.load);
         self.playback.sounds.clear();
         let before = Instant::now();
         for i in 0..due {
-            let microphone = rate.map(|sample_rate| self.listening.heard.share(i, due, sample_rate));
+            let samples = rate.map(|sample_rate| self.microphone.heard.share(i, due, sample_rate));
             controls.mode = self.motion.mode();
             let worked = ThreadTime::now();
-            self.stage.step(&controls, microphone);
-            self.account.note_moment(&self.stage);
+            self.stage.step(&controls, samples);
+            self.publisher.record_step(&self.stage);
             let cost = worked.elapsed().as_secs_f64();
-            self.motion.govern(cost, self.stage.steps(), &mut self.account.load);
-            self.files.note(&self.stage);
+            self.motion.govern(cost, self.stage.steps(), &mut self.publisher.load);
+            self.files.record(&self.stage);
             self.playback.sounds.extend_from_slice(self.stage.sounds());
-            self.account.note_sounds(&self.stage);
+            self.publisher.record_sounds(&self.stage);
             self.files.write_trace(&self.stage)?;
-            if !self.listening.deaf {
-                self.account.load.microphone.note(rate.is_some(), &self.stage.snapshot().breath.estimate);
+            if !self.microphone.ignore_microphone {
+                self.publisher.load.microphone.update(rate.is_some(), &self.stage.snapshot().breath.estimate);
             }
-            self.account.note_breath(&self.stage, controls.strength);
+            self.publisher.record_breaths(&self.stage, controls.strength);
         }
-        self.account.note_time(before, due);
-        self.playback.try_sounds(trial, &self.stage);
+        self.publisher.record_time(before, due);
+        self.playback.play_audition(audition, &self.stage);
         self.playback.send(&self.stage);
         if let Some(words) = words {
             self.playback.audio.say(&words);
         }
-        let chirp_at_db = chirps.then_some(self.site.audio.volume_db);
-        self.playback.set_loudness(loudness, (self.stage.attracts(), controls.closed), chirp_at_db);
+        let self_test_db = is_testing.then_some(self.site.audio.volume_db);
+        self.playback.set_loudness(loudness, (self.stage.attracts(), controls.closed), self_test_db);
         let look = controls.look;
-        self.account.inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
-        Ok(rate.is_some() && !self.account.load.microphone.is_silent() || self.recorded)
+        self.publisher.inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
+        Ok(rate.is_some() && !self.publisher.load.microphone.is_silent() || self.recorded)
     }
 
-    /// Takes over a changed configuration: of the devices and threads only what differs begins anew.
-    fn settle(&mut self, site: Site) {
+    /// Takes over a changed configuration. Only devices and threads with changed settings restart.
+    fn reconfigure(&mut self, site: Site) {
         let before = std::mem::replace(&mut self.site, site);
-        self.playback.settle(&before, &self.site, self.stage.exhibit(), self.listening.closed);
+        self.playback.reconfigure(&before, &self.site, self.stage.exhibit(), self.microphone.closed);
         if before.controllers != self.site.controllers {
             self.controllers = Controllers::start(&self.site.controllers);
         }
@@ -164,13 +164,13 @@ impl Thread {
         if anew {
             self.files.end(&self.stage);
         }
-        self.stage.settle(Settings { clock: local_time(), ..self.site.settings }, self.site.idle_s);
+        self.stage.reconfigure(Settings { clock: local_time(), ..self.site.settings }, self.site.idle_s);
         if anew {
             self.begin_anew();
         }
     }
 
-    /// Another exhibit from its start, with its own sounds.
+    /// Starts another exhibit with its own sounds.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
         self.playback.swap(&exhibit);
         self.motion.swap(exhibit.motion);
@@ -181,19 +181,24 @@ impl Thread {
 
     fn begin_anew(&mut self) {
         self.files.begin(&self.stage);
-        self.account.begin_anew(&self.stage);
+        self.publisher.begin_anew(&self.stage);
     }
 
     fn publish(&mut self, due: Instant, hears: bool) {
-        let (audio, load) = (&self.playback.audio, &mut self.account.load);
+        let (audio, load) = (&self.playback.audio, &mut self.publisher.load);
         load.audio = audio.status();
         load.played = audio.played();
-        load.loudness = self.playback.loudness.view();
+        load.loudness = self.playback.loudness.status();
         load.mode = self.stage.snapshot().diagnostics.mode;
         load.controllers.clear();
         load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));
-        let (frame, wakes) = self.account.frame(&self.stage, due);
-        let frame = Arc::new(Frame { speaks: audio.speaks(), deaf: self.listening.deaf, hears, ..frame });
+        let (frame, wakes) = self.publisher.frame(&self.stage, due);
+        let frame = Arc::new(LiveState {
+            speaks: audio.speaks(),
+            ignore_microphone: self.microphone.ignore_microphone,
+            hears,
+            ..frame
+        });
         *lock(&self.shared.frame) = frame;
         if wakes {
             (self.wake)();
@@ -201,8 +206,8 @@ impl Thread {
     }
 }
 
-/// Joins what the controllers say to what the window tells.
-fn add(controls: &mut Controls, reading: &Reading, stick_speed: f64) {
+/// Adds the readings of the controllers to the controls of the window.
+fn add_controllers(controls: &mut Controls, reading: &Reading, stick_speed: f64) {
     controls.hold |= reading.hold;
     controls.strength = reading.strength;
     controls.named = reading.aim;

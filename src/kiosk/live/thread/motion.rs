@@ -1,19 +1,19 @@
-//! What moves the exhibit: as the command line says, or as the governor chooses.
+//! Choice of the solver: by the command line, or by the governor.
 
-use super::super::frame::Load;
+use super::super::live_state::RunStatus;
 use crate::step::governor::Governor;
 use soffio_exhibit::Motion;
 use soffio_simulation::{MotionMode, STEPS_PER_SECOND};
 
-/// The choice for the next step.
+/// Solver of the next step.
 pub(super) struct MotionChoice {
-    /// Chosen for the whole run.
+    /// Fixed for the whole run.
     fixed: Option<MotionMode>,
     governor: Governor,
 }
 
 impl MotionChoice {
-    /// For an exhibit; `fixed` overrules its own choice and the governor's.
+    /// For an exhibit; `fixed` takes precedence over its own choice and the governor's.
     pub(super) fn new(fixed: Option<MotionMode>, motion: Motion) -> Self {
         Self { fixed, governor: Governor::new(motion) }
     }
@@ -23,18 +23,18 @@ impl MotionChoice {
         self.governor = Governor::new(motion);
     }
 
-    /// What moves the next step; `None` leaves it to the exhibit.
+    /// Solver of the next step; `None` is the exhibit's own.
     pub(super) fn mode(&self) -> Option<MotionMode> {
         self.fixed.or(self.governor.mode())
     }
 
-    /// Looks whether the laws can go on after a step, the `steps`-th, that took `cost` seconds of processor time.
-    pub(super) fn govern(&mut self, cost: f64, steps: u64, load: &mut Load) {
-        if self.fixed.is_none() && self.governor.note(cost) {
+    /// Lets the governor choose after step number `steps`, which took `cost` s of processor time.
+    pub(super) fn govern(&mut self, cost: f64, steps: u64, load: &mut RunStatus) {
+        if self.fixed.is_none() && self.governor.record(cost) {
             load.mode_changes += 1;
             let mode = self.governor.mode().unwrap_or_default().name();
             let t = steps as f64 / STEPS_PER_SECOND as f64;
-            tracing::info!("{t:.3} s: moved by {mode} from here (a step took {:.3} ms)", 1e3 * cost);
+            tracing::info!("{t:.3} s: the solver is {mode} from here (a step took {:.3} ms)", 1e3 * cost);
         }
     }
 }

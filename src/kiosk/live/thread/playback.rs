@@ -1,8 +1,8 @@
-//! What is heard: the instruments of the exhibit on show, one that staff try beside them, and how loud it all is.
+//! Sound output: the instruments of the exhibit on show, one more that staff try, and the loudness.
 
+use crate::step::instruments::{Audition, AuditionInstrument, AuditionTarget, SynthSetup, hit};
 use crate::step::stage::Stage;
-use crate::step::voice::{Guest, Trial, Tried, Voice, hit};
-use crate::venue::loudness::{Loudness, Wishes};
+use crate::venue::loudness::{Loudness, VolumeRequests};
 use crate::venue::site::Site;
 use soffio_config::AudioSettings;
 use soffio_devices::audio::AudioIo;
@@ -10,78 +10,86 @@ use soffio_exhibit::Exhibit;
 use soffio_math::from_decibels;
 use soffio_sound::SoundCommand;
 
-/// The loudspeaker's side of the thread. The devices are opened together, so the microphone is read through it too.
+/// Sound output. The devices are opened together, so the microphone is read through it too.
 pub(super) struct Playback {
     pub audio: AudioIo,
     pub loudness: Loudness,
-    /// Sounds of the steps that are being done.
+    /// Sounds of the present steps.
     pub sounds: Vec<SoundCommand>,
-    voice: Voice,
-    /// The timbre that staff try beside the exhibit's own, and what is to be heard when it has come.
-    guest: Option<Guest>,
-    trial: Option<Trial>,
+    synth_setup: SynthSetup,
+    /// Instrument that staff try, and the sound to play when it is built.
+    audition_instrument: Option<AuditionInstrument>,
+    audition: Option<Audition>,
 }
 
 impl Playback {
-    /// Opens the devices; the microphone only where something may be heard.
+    /// Opens the devices; the microphone only if breath is allowed and the venue is open.
     pub(super) fn start(site: &Site, exhibit: &Exhibit, closed: bool) -> Self {
-        let voice = voice(site);
+        let synth_setup = synth_setup(site);
         Self {
-            audio: AudioIo::start_with(&site.audio, site.breath && !closed, voice.synth(exhibit, None)),
+            audio: AudioIo::start_with(&site.audio, site.breath && !closed, synth_setup.synth(exhibit, None)),
             loudness: Loudness::new(site.volume, site.night.clone(), site.silent_attract),
             sounds: Vec::new(),
-            voice,
-            guest: None,
-            trial: None,
+            synth_setup,
+            audition_instrument: None,
+            audition: None,
         }
     }
 
-    /// Takes over a changed configuration: only what differs begins anew.
-    pub(super) fn settle(&mut self, before: &Site, site: &Site, exhibit: &Exhibit, closed: bool) {
-        self.voice = voice(site);
+    /// Takes over a changed configuration; only changed parts restart.
+    pub(super) fn reconfigure(&mut self, before: &Site, site: &Site, exhibit: &Exhibit, closed: bool) {
+        self.synth_setup = synth_setup(site);
         let devices = |site: &Site| AudioSettings { volume_db: 0.0, most_partials: 0, ..site.audio.clone() };
         let reopens = devices(before) != devices(site);
         if reopens {
-            let synth = self.voice.synth(exhibit, self.guest.as_ref());
+            let synth = self.synth_setup.synth(exhibit, self.audition_instrument.as_ref());
             self.audio = AudioIo::start_with(&site.audio, site.breath && !closed, synth);
-        } else if self.voice != voice(before) || before.settings != site.settings {
-            self.audio.set_instruments(self.voice.synth(exhibit, self.guest.as_ref()));
+        } else if self.synth_setup != synth_setup(before) || before.settings != site.settings {
+            self.audio.set_instruments(self.synth_setup.synth(exhibit, self.audition_instrument.as_ref()));
         }
         let loud = |site: &Site| (site.volume, site.night.clone(), site.silent_attract);
         if reopens || loud(before) != loud(site) {
-            self.loudness.settle(site.volume, site.night.clone(), site.silent_attract, reopens);
+            self.loudness.reconfigure(site.volume, site.night.clone(), site.silent_attract, reopens);
         }
     }
 
-    /// Another exhibit, with its own sounds alone.
+    /// Takes the instruments of another exhibit.
     pub(super) fn swap(&mut self, exhibit: &Exhibit) {
-        (self.guest, self.trial) = (None, None);
-        self.audio.set_instruments(self.voice.synth(exhibit, None));
+        (self.audition_instrument, self.audition) = (None, None);
+        self.audio.set_instruments(self.synth_setup.synth(exhibit, None));
     }
 
-    /// Plays what staff want to hear: the exhibit's own instruments at once, others when they have been built.
-    pub(super) fn try_sounds(&mut self, trial: Option<Trial>, stage: &Stage) {
+    /// Plays a sound for staff: an instrument of the exhibit at once, another one when it is built.
+    pub(super) fn play_audition(&mut self, audition: Option<Audition>, stage: &Stage) {
         let sample = stage.sample();
         let instruments = stage.exhibit().instruments.len();
-        match trial {
-            Some(trial) => match trial.tried {
-                Tried::Own(index) if index < instruments => self.sounds.push(hit(index as u16, &trial, sample)),
-                Tried::Own(_) => {}
-                Tried::Timbre(name) => {
-                    if self.guest.as_ref().is_none_or(|guest| guest.name != name) {
-                        self.guest = Guest::new(name);
-                        self.audio.set_instruments(self.voice.synth(stage.exhibit(), self.guest.as_ref()));
+        match audition {
+            Some(audition) => match audition.target {
+                AuditionTarget::Exhibit(index) if index < instruments => {
+                    self.sounds.push(hit(index as u16, &audition, sample))
+                }
+                AuditionTarget::Exhibit(_) => {}
+                AuditionTarget::Timbre(name) => {
+                    if self
+                        .audition_instrument
+                        .as_ref()
+                        .is_none_or(|audition_instrument| audition_instrument.name != name)
+                    {
+                        self.audition_instrument = AuditionInstrument::new(name);
+                        self.audio.set_instruments(
+                            self.synth_setup.synth(stage.exhibit(), self.audition_instrument.as_ref()),
+                        );
                     }
-                    self.trial = Some(trial);
+                    self.audition = Some(audition);
                 }
             },
-            None if self.trial.is_none() => return,
+            None if self.audition.is_none() => return,
             None => {}
         }
         if self.audio.has_instruments()
-            && let Some((trial, guest)) = self.trial.take().zip(self.guest.as_ref())
+            && let Some((audition, audition_instrument)) = self.audition.take().zip(self.audition_instrument.as_ref())
         {
-            self.sounds.extend(guest.play(instruments as u16, &trial, sample));
+            self.sounds.extend(audition_instrument.play(instruments as u16, &audition, sample));
         }
     }
 
@@ -90,16 +98,21 @@ impl Playback {
         self.audio.send(stage.sample(), &self.sounds);
     }
 
-    /// Sets how loud it is; a chirp is heard at the configured volume.
-    pub(super) fn set_loudness(&mut self, wishes: Wishes, (attracts, closed): (bool, bool), chirp_at_db: Option<f64>) {
-        self.loudness.tend(wishes, (attracts, closed), self.audio.knobs());
-        if let Some(volume_db) = chirp_at_db {
+    /// Updates the loudness; a self-test plays at the configured volume, dB.
+    pub(super) fn set_loudness(
+        &mut self,
+        wishes: VolumeRequests,
+        (attracts, closed): (bool, bool),
+        self_test_db: Option<f64>,
+    ) {
+        self.loudness.update(wishes, (attracts, closed), self.audio.knobs());
+        if let Some(volume_db) = self_test_db {
             self.audio.knobs().set_volume(from_decibels(volume_db) as f32);
         }
     }
 }
 
-/// What the site adds to an exhibit's instruments.
-fn voice(site: &Site) -> Voice {
-    Voice { room: site.room, most_partials: site.audio.most_partials as usize, seed: site.settings.seed }
+/// Settings of the synthesizer by the site.
+fn synth_setup(site: &Site) -> SynthSetup {
+    SynthSetup { reverb: site.reverb, most_partials: site.audio.most_partials as usize, seed: site.settings.seed }
 }

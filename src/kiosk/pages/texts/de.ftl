@@ -157,7 +157,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = Dynamik mit Zwangsbedingungen
 staff-motion-procedural = prozedural
 staff-motion-position-based = positionsbasiert
-staff-hands = mit der Hand gehalten
+staff-pointer-grabs = mit der Hand gehalten
 staff-steps-dropped = ausgelassene Schritte
 staff-commands-dropped = verlorene Befehle
 staff-picture = Bild
@@ -227,7 +227,6 @@ staff-source-speed = Atem an der Quelle: { $speed } m/s
 staff-nothing-audible = Es wird nichts zu hören sein: stumm, oder kein Lautsprecher
 staff-strike-speed = Anschlag, m/s
 staff-pan = links … rechts
-staff-sounds-of = { $id }
 staff-all-timbres = Alle Klangfarben, jede an ihrem Testkörper
 
 ## Staff: parameters

@@ -173,7 +173,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = constrained dynamics
 staff-motion-procedural = procedural
 staff-motion-position-based = position-based
-staff-hands = held by hand
+staff-pointer-grabs = held by hand
 staff-steps-dropped = steps dropped
 staff-commands-dropped = commands dropped
 staff-picture = picture
@@ -243,7 +243,6 @@ staff-source-speed = breath at its source: { $speed } m/s
 staff-nothing-audible = Nothing will be audible: muted, or no loudspeaker
 staff-strike-speed = strike speed, m/s
 staff-pan = left … right
-staff-sounds-of = { $id }
 staff-all-timbres = All timbres, each on its test body
 
 ## Staff: parameters

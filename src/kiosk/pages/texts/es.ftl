@@ -157,7 +157,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = dinámica con restricciones
 staff-motion-procedural = procedural
 staff-motion-position-based = por posiciones
-staff-hands = sujeto con la mano
+staff-pointer-grabs = sujeto con la mano
 staff-steps-dropped = pasos omitidos
 staff-commands-dropped = órdenes perdidas
 staff-picture = imagen
@@ -227,7 +227,6 @@ staff-source-speed = soplo en su origen: { $speed } m/s
 staff-nothing-audible = No se oirá nada: sonido silenciado o sin altavoz
 staff-strike-speed = velocidad del golpe, m/s
 staff-pan = izquierda … derecha
-staff-sounds-of = { $id }
 staff-all-timbres = Todos los timbres, cada uno en su cuerpo de prueba
 
 ## Staff: parameters

@@ -157,7 +157,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = dynamique sous contraintes
 staff-motion-procedural = procédural
 staff-motion-position-based = par positions
-staff-hands = tenu à la main
+staff-pointer-grabs = tenu à la main
 staff-steps-dropped = pas sautés
 staff-commands-dropped = commandes perdues
 staff-picture = image
@@ -227,7 +227,6 @@ staff-source-speed = souffle à sa source : { $speed } m/s
 staff-nothing-audible = Rien ne sera audible : son coupé, ou aucun haut-parleur
 staff-strike-speed = vitesse de frappe, m/s
 staff-pan = gauche … droite
-staff-sounds-of = { $id }
 staff-all-timbres = Tous les timbres, chacun sur son corps d’essai
 
 ## Staff: parameters

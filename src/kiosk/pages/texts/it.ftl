@@ -157,7 +157,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = dinamica vincolata
 staff-motion-procedural = procedurale
 staff-motion-position-based = per posizioni
-staff-hands = tenuto con la mano
+staff-pointer-grabs = tenuto con la mano
 staff-steps-dropped = passi saltati
 staff-commands-dropped = comandi persi
 staff-picture = immagine
@@ -227,7 +227,6 @@ staff-source-speed = soffio alla sorgente: { $speed } m/s
 staff-nothing-audible = Non si sentirà nulla: audio muto o nessun altoparlante
 staff-strike-speed = velocità del colpo, m/s
 staff-pan = sinistra … destra
-staff-sounds-of = { $id }
 staff-all-timbres = Tutti i timbri, ciascuno sul suo corpo di prova
 
 ## Staff: parameters

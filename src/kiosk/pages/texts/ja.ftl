@@ -152,7 +152,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = 拘束付き動力学
 staff-motion-procedural = 手続き型
 staff-motion-position-based = 位置ベース
-staff-hands = 手で持たれた箇所
+staff-pointer-grabs = 手で持たれた箇所
 staff-steps-dropped = 省かれたステップ
 staff-commands-dropped = 失われた命令
 staff-picture = 画面
@@ -222,7 +222,6 @@ staff-source-speed = 息の出口での速さ：{ $speed } m/s
 staff-nothing-audible = 音は出ません：消音中か、スピーカーがありません
 staff-strike-speed = 打つ速さ、m/s
 staff-pan = 左 … 右
-staff-sounds-of = { $id }
 staff-all-timbres = すべての音色（それぞれ試験用の物体で）
 
 ## Staff: parameters

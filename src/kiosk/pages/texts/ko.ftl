@@ -152,7 +152,7 @@ staff-motion-changes = { $count ->
 staff-motion-dynamics = 구속 동역학
 staff-motion-procedural = 절차적
 staff-motion-position-based = 위치 기반
-staff-hands = 손으로 잡은 곳
+staff-pointer-grabs = 손으로 잡은 곳
 staff-steps-dropped = 빠진 단계
 staff-commands-dropped = 빠진 명령
 staff-picture = 화면
@@ -222,7 +222,6 @@ staff-source-speed = 입김의 시작 속력: { $speed } m/s
 staff-nothing-audible = 소리가 나지 않습니다: 음소거 상태이거나 스피커가 없습니다
 staff-strike-speed = 타격 속력, m/s
 staff-pan = 왼쪽 … 오른쪽
-staff-sounds-of = { $id }
 staff-all-timbres = 모든 음색, 각각 시험용 물체로
 
 ## Staff: parameters

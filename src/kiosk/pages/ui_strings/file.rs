@@ -111,11 +111,15 @@ impl TextFile {
             let help = "write `key = text`, and the lines after the first with spaces before them";
             found.error(error.pos, format!("syntax error: {}", error.kind), help.into());
         }
-        let keys = found.entries(&resource);
-        found.missing(&language, &keys);
+        // The plural rules panic at such numbers, wherever in the file they are used.
+        let usable = found.numbers(&resource);
+        if usable {
+            let keys = found.entries(&resource);
+            found.missing(&language, &keys);
+        }
         let mut problems = found.problems;
         problems.sort_by_key(|problem| problem.place);
-        (Some(Self { language, resource: Arc::new(resource) }), problems)
+        (usable.then(|| Self { language, resource: Arc::new(resource) }), problems)
     }
 }
 
@@ -144,6 +148,25 @@ impl Findings<'_> {
     fn span(&self, part: &str) -> Range<usize> {
         let start = (part.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         start..start + part.len()
+    }
+
+    /// Is no number of the file too long?
+    fn numbers(&mut self, resource: &FluentResource) -> bool {
+        let mut used = Used::default();
+        for entry in resource.entries() {
+            let (value, attributes) = match entry {
+                Entry::Message(message) => (message.value.as_ref(), &message.attributes),
+                Entry::Term(term) => (Some(&term.value), &term.attributes),
+                _ => continue,
+            };
+            value.into_iter().chain(attributes.iter().map(|attribute| &attribute.value)).for_each(|p| used.pattern(p));
+        }
+        let long: Vec<&str> = used.numbers.into_iter().filter(|digits| digits.len() > MOST_DIGITS).collect();
+        for digits in &long {
+            let help = format!("write at most {MOST_DIGITS} digits; nothing of this file is used");
+            self.error(self.span(digits), "the number is too long".into(), help);
+        }
+        long.is_empty()
     }
 
     /// Checks all messages; returns their keys.
@@ -179,9 +202,6 @@ impl Findings<'_> {
                 _ => format!("`{key}` has {listed}"),
             };
             self.error(self.span(name), format!("unknown variable `${name}`"), help);
-        }
-        for digits in used.numbers.iter().filter(|digits| digits.len() > MOST_DIGITS) {
-            self.error(self.span(digits), "the number is too long".into(), format!("at most {MOST_DIGITS} digits"));
         }
         if self.problems.len() == before {
             let unused: Vec<&str> =

@@ -4,11 +4,21 @@ use egui::{Grid, Ui};
 
 use super::plot::Course;
 use super::style::{BAD, ROW};
-use crate::staff::sight::Sight;
+use crate::pages::ui_strings::TextId;
+use crate::staff::panel_input::PanelInput;
 use soffio_simulation::STEPS_PER_SECOND;
 
 /// A joint that is farther open than this is told, m or rad.
 const OPEN: f64 = 1e-3;
+
+/// Headings of the table of bodies.
+const COLUMNS: [TextId; 5] = [
+    TextId::StaffColumnBody,
+    TextId::StaffColumnMass,
+    TextId::StaffColumnSpeed,
+    TextId::StaffColumnSpin,
+    TextId::StaffColumnHeight,
+];
 
 /// What the page remembers.
 #[derive(Debug, Default)]
@@ -23,8 +33,8 @@ pub struct Bodies {
 
 impl Bodies {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight) {
-        let frame = sight.frame;
+    pub fn show(&mut self, ui: &mut Ui, input: &PanelInput) {
+        let (frame, texts) = (input.frame, input.texts);
         if self.exhibit != frame.exhibit.id {
             *self = Self { exhibit: frame.exhibit.id.clone(), ..Self::default() };
         }
@@ -32,10 +42,10 @@ impl Bodies {
         let time = frame.current.step as f64 / STEPS_PER_SECOND as f64;
         self.worst.push(time, state.joint_error);
         self.energy.push(time, state.energy);
-        self.worst.show(ui, "largest joint error", "m", true);
-        self.energy.show(ui, "energy", "J", false);
+        self.worst.show(ui, texts.get(TextId::StaffLargestJointError), "m", true);
+        self.energy.show(ui, texts.get(TextId::StaffEnergy), "J", false);
         let Some(seen) = &frame.inspection else {
-            ui.weak("the simulation has not answered yet");
+            ui.weak(texts.get(TextId::StaffNoDataYet));
             return;
         };
         // Another exhibit may have come on between the two.
@@ -45,7 +55,7 @@ impl Bodies {
             self.own.show(ui, &constraint.name, if joint.angle { "rad" } else { "m" }, true);
         }
         ui.separator();
-        ui.label("Joints; press one for its course");
+        ui.label(texts.get(TextId::StaffJoints));
         Grid::new("joints").num_columns(3).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
             for (index, (constraint, joint)) in joints.iter().enumerate() {
                 let unit = if joint.angle { "rad" } else { "m" };
@@ -61,8 +71,8 @@ impl Bodies {
         });
         ui.separator();
         Grid::new("bodies").num_columns(5).min_row_height(ROW).striped(true).spacing([16.0, 2.0]).show(ui, |ui| {
-            for name in ["body", "mass, g", "speed, m/s", "spin, rad/s", "height, m"] {
-                ui.label(name);
+            for name in COLUMNS {
+                ui.label(texts.get(name));
             }
             ui.end_row();
             for (body, state) in frame.exhibit.bodies.iter().zip(&seen.bodies) {

@@ -2,6 +2,8 @@
 
 use egui::{Align2, Color32, FontId, Painter, Rect, Stroke, StrokeKind, pos2, vec2};
 
+use crate::pages::ui_strings::{TextId, UiStrings};
+
 /// Steps of grey.
 const STEPS: usize = 17;
 /// Levels near black and near white that a well set display tells apart.
@@ -35,10 +37,10 @@ impl Pattern {
     }
 
     /// Draws it over all of `picture`.
-    pub fn paint(self, painter: &Painter, picture: Rect) {
+    pub fn paint(self, painter: &Painter, picture: Rect, texts: &UiStrings) {
         match self {
-            Self::Grey => grey(painter, picture),
-            Self::Edges => edges(painter, picture),
+            Self::Grey => grey(painter, picture, texts.get(TextId::StaffGreySteps)),
+            Self::Edges => edges(painter, picture, texts.get(TextId::StaffEdges)),
             Self::Colour(index) => {
                 painter.rect_filled(picture, 0.0, COLOURS[index]);
             }
@@ -46,7 +48,7 @@ impl Pattern {
     }
 }
 
-fn grey(painter: &Painter, picture: Rect) {
+fn grey(painter: &Painter, picture: Rect, caption: &str) {
     let part = |low: f32, high: f32| {
         let x = |share: f32| picture.left() + share * picture.width();
         picture.with_min_x(x(low)).with_max_x(x(high))
@@ -64,17 +66,16 @@ fn grey(painter: &Painter, picture: Rect) {
             painter.rect_filled(Rect::from_center_size(at, vec2(side, side)), 0.0, Color32::from_gray(level));
         }
     }
-    let said = "17 even steps; five squares can be told in the black and in the white";
     painter.text(
         picture.center_bottom() - vec2(0.0, 24.0),
         Align2::CENTER_BOTTOM,
-        said,
+        caption,
         FontId::proportional(18.0),
         Color32::BLACK,
     );
 }
 
-fn edges(painter: &Painter, picture: Rect) {
+fn edges(painter: &Painter, picture: Rect, caption: &str) {
     painter.rect_filled(picture, 0.0, Color32::from_gray(40));
     let pixel = 1.0 / painter.ctx().pixels_per_point();
     let line = Stroke::new(pixel, Color32::WHITE);
@@ -87,11 +88,10 @@ fn edges(painter: &Painter, picture: Rect) {
     for center in corners {
         painter.circle_stroke(center, radius, Stroke::new(2.0, Color32::WHITE));
     }
-    let said = "a white line of one pixel on all four edges; five round circles";
     painter.text(
         inner.center() + vec2(0.0, 1.4 * radius),
         Align2::CENTER_TOP,
-        said,
+        caption,
         FontId::proportional(18.0),
         Color32::WHITE,
     );

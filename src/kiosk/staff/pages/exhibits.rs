@@ -4,10 +4,12 @@ use std::path::Path;
 
 use egui::{RichText, Ui};
 
+use super::states::saved_in;
+use crate::pages::ui_strings::{TextId, UiStrings};
+use crate::staff::action::StaffAction;
 use crate::staff::edit::{Changes, with_list};
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
-use crate::venue::shelf::{Places, folders, id};
+use crate::staff::panel_input::PanelInput;
+use crate::venue::catalog::{ExhibitSource, folders, id};
 use soffio_config::OTHERS;
 
 /// What the page remembers.
@@ -33,42 +35,43 @@ impl Exhibits {
     pub fn show(
         &mut self,
         ui: &mut Ui,
-        sight: &Sight,
+        input: &PanelInput,
         may: bool,
-        wishes: &mut Vec<Wish>,
+        actions: &mut Vec<StaffAction>,
         changes: &mut Changes,
         said: &mut Option<String>,
     ) {
-        let site = &sight.site.exhibits;
+        let (site, texts) = (&input.site.exhibits, input.texts);
         if self.configured != site.show || self.all.is_empty() {
             (self.configured, self.list) = (site.show.clone(), site.show.clone());
-            let places = Places::All { folder: site.folder.clone(), show: vec![OTHERS.to_owned()] };
+            let places = ExhibitSource::All { folder: site.folder.clone(), show: vec![OTHERS.to_owned()] };
             self.all = folders(&places).iter().map(|folder| id(folder)).collect();
         }
-        ui.label("Visitors find the works in this order.");
-        let change = ui.add_enabled_ui(may, |ui| self.rows(ui, sight, wishes)).inner;
+        ui.label(texts.get(TextId::StaffExhibitsOrder));
+        let change = ui.add_enabled_ui(may, |ui| self.rows(ui, input, actions)).inner;
         if let Some(change) = change {
             self.apply(change);
         }
         ui.separator();
         let changed = self.list != self.configured;
         ui.horizontal(|ui| {
-            let may_save = may && changed && sight.file.is_some();
-            if ui.add_enabled(may_save, egui::Button::new("Save the order")).clicked()
-                && let Some(file) = sight.file
+            let may_save = may && changed && input.file.is_some();
+            if ui.add_enabled(may_save, egui::Button::new(texts.get(TextId::StaffSaveOrder))).clicked()
+                && let Some(file) = input.file
             {
-                *said = Some(save(file, &self.list, changes));
+                *said = Some(save(file, &self.list, changes, texts));
             }
-            if ui.add_enabled(changed, egui::Button::new("Discard")).clicked() {
+            if ui.add_enabled(changed, egui::Button::new(texts.get(TextId::StaffDiscard))).clicked() {
                 self.list.clone_from(&self.configured);
             }
         });
-        if sight.file.is_none() {
-            ui.weak("The configuration is built in: without a file nothing can be saved.");
+        if input.file.is_none() {
+            ui.weak(texts.get(TextId::StaffNoFile));
         }
     }
 
-    fn rows(&self, ui: &mut Ui, sight: &Sight, wishes: &mut Vec<Wish>) -> Option<Change> {
+    fn rows(&self, ui: &mut Ui, input: &PanelInput, actions: &mut Vec<StaffAction>) -> Option<Change> {
+        let texts = input.texts;
         let mut change = None;
         for (row, id) in self.list.iter().enumerate() {
             ui.horizontal(|ui| {
@@ -82,29 +85,29 @@ impl Exhibits {
                 if ui.button("\u{00d7}").clicked() {
                     change = Some(Change::Remove(row));
                 }
-                let stands = sight.works.contains(&id.as_str());
+                let stands = input.exhibit_ids.contains(&id.as_str());
                 match id.as_str() {
                     OTHERS => {
                         let others = self.all.iter().filter(|id| !self.list.contains(id)).count();
-                        ui.label(format!("all others ({others})"));
+                        ui.label(&*texts.format(TextId::StaffOthersCount, &[("count", others.into())]));
                     }
                     id if stands => {
-                        if ui.selectable_label(sight.frame.exhibit.id == id, id).clicked() {
-                            wishes.push(Wish::Show(id.to_owned()));
+                        if ui.selectable_label(input.frame.exhibit.id == id, id).clicked() {
+                            actions.push(StaffAction::Show(id.to_owned()));
                         }
                     }
                     id => {
-                        ui.weak(format!("{id} (not there, or it does not load: see the log)"));
+                        ui.weak(&*texts.format(TextId::StaffExhibitMissing, &[("id", id.into())]));
                     }
                 }
             });
         }
         ui.separator();
-        ui.label("Not in the list:");
+        ui.label(texts.get(TextId::StaffNotListed));
         ui.horizontal_wrapped(|ui| {
             let others = self.all.iter().map(String::as_str).chain([OTHERS]);
             for id in others.filter(|id| !self.list.iter().any(|listed| listed == id)) {
-                let name = if id == OTHERS { "all others" } else { id };
+                let name = if id == OTHERS { texts.get(TextId::StaffOthers) } else { id };
                 if ui.button(format!("+ {name}")).clicked() {
                     change = Some(Change::Add(id.to_owned()));
                 }
@@ -122,9 +125,9 @@ impl Exhibits {
     }
 }
 
-fn save(file: &Path, list: &[String], changes: &mut Changes) -> String {
+fn save(file: &Path, list: &[String], changes: &mut Changes, texts: &UiStrings) -> String {
     match changes.make(file, |text| with_list(text, "exhibits", "show", list)) {
-        Ok(()) => format!("Saved in {}.", file.display()),
+        Ok(()) => saved_in(texts, file),
         Err(error) => error,
     }
 }

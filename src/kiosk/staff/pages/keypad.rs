@@ -3,6 +3,7 @@
 use egui::{Align, Button, Event, Grid, Key, Layout, RichText, Ui, vec2};
 
 use super::style::BAD;
+use crate::pages::ui_strings::{TextId, UiStrings};
 use crate::staff::gate::Gate;
 
 /// Side of a digit on the glass, mm.
@@ -19,15 +20,19 @@ enum Pressed {
 }
 
 /// Asks for the PIN.
-pub fn show(ui: &mut Ui, gate: &mut Gate, time: f64, points_per_mm: f32) {
+pub fn show(ui: &mut Ui, gate: &mut Gate, time: f64, points_per_mm: f32, texts: &UiStrings) {
     let side = (DIGIT_MM * points_per_mm).max(LEAST).min((ui.available_width() - 32.0) / 3.0);
     ui.add_space(side * 0.5);
     ui.with_layout(Layout::top_down(Align::Center), |ui| {
-        ui.heading("Staff: enter the PIN");
+        ui.heading(texts.get(TextId::StaffEnterPin));
         let pause = gate.pause(time);
         let said = match pause {
-            _ if gate.checks() => "one moment".to_owned(),
-            Some(left) => format!("not the PIN ({} in a row); again in {} s", gate.wrong(), left.ceil()),
+            _ if gate.checks() => texts.get(TextId::StaffPinChecking).to_owned(),
+            Some(left) => {
+                let seconds = left.ceil().to_string().into();
+                let count = gate.wrong().unsigned_abs().into();
+                texts.format(TextId::StaffPinWrong, &[("count", count), ("seconds", seconds)]).to_string()
+            }
             None if gate.entered() == 0 => "\u{2013}".to_owned(),
             None => "\u{2022} ".repeat(gate.entered()),
         };

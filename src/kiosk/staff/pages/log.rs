@@ -4,6 +4,7 @@ use egui::{Label, RichText, ScrollArea, Ui};
 use tracing::Level;
 
 use super::style::BAD;
+use crate::pages::ui_strings::{TextId, UiStrings};
 use crate::staff::log::Log;
 
 /// What the page remembers.
@@ -15,12 +16,12 @@ pub struct LogPage {
 
 impl LogPage {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, log: &Log) {
-        ui.checkbox(&mut self.grave, "only warnings and errors");
+    pub fn show(&mut self, ui: &mut Ui, log: &Log, texts: &UiStrings) {
+        ui.checkbox(&mut self.grave, texts.get(TextId::StaffLogGrave));
         let lines = log.lines();
         let shown: Vec<_> = lines.iter().filter(|line| !self.grave || line.level <= Level::WARN).collect();
         if shown.is_empty() {
-            ui.weak("no lines");
+            ui.weak(texts.get(TextId::StaffLogEmpty));
         }
         ScrollArea::vertical().id_salt("lines").stick_to_bottom(true).auto_shrink(false).show(ui, |ui| {
             for line in shown {

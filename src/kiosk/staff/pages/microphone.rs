@@ -2,9 +2,11 @@
 
 use egui::{Color32, DragValue, Grid, Sense, Ui, pos2, vec2};
 
+use super::states::{clips, decision, device, gain_control, remedy_text, saved_in};
 use super::style::{BAD, GOOD, ROW, row};
+use crate::pages::ui_strings::TextId;
 use crate::staff::edit::{Changes, with_key};
-use crate::staff::sight::Sight;
+use crate::staff::panel_input::PanelInput;
 use soffio_config::remedies;
 use soffio_detector::{BlowEstimate, Reason};
 
@@ -60,13 +62,21 @@ impl Calibration {
 
 impl Microphone {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, changes: &mut Changes, said: &mut Option<String>) {
-        let frame = sight.frame;
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        input: &PanelInput,
+        may: bool,
+        changes: &mut Changes,
+        said: &mut Option<String>,
+    ) {
+        let (frame, texts) = (input.frame, input.texts);
         let heard = &frame.current.breath.estimate;
         if !frame.hears {
-            ui.colored_label(BAD, format!("nothing arrives; {}", frame.load.audio.input));
+            let device = device(texts, &frame.load.audio.input);
+            ui.colored_label(BAD, &*texts.format(TextId::StaffNoSignalFrom, &[("device", device.into())]));
             for remedy in frame.load.microphone.remedies() {
-                ui.colored_label(BAD, remedy);
+                ui.colored_label(BAD, remedy_text(texts, remedy));
             }
             self.range = None;
             return;
@@ -78,68 +88,74 @@ impl Microphone {
         meter(ui, heard, range);
         let health = &frame.load.microphone;
         Grid::new("microphone").num_columns(2).min_row_height(ROW).spacing([24.0, 4.0]).show(ui, |ui| {
-            row(ui, "level now", format!("{:6.1} dBFS", heard.level_dbfs), false);
-            row(ui, "since the page opened", format!("{:6.1} to {:6.1} dBFS", range[0], range[1]), false);
+            row(ui, texts.get(TextId::StaffLevelNow), format!("{:6.1} dBFS", heard.level_dbfs), false);
+            let [low, high] = range.map(|level| format!("{level:6.1}").into());
+            let between = texts.format(TextId::StaffFromTo, &[("low", low), ("high", high)]);
+            row(ui, texts.get(TextId::StaffLevelRange), between, false);
             let loud = heard.floor_dbfs > remedies::LOUD_DBFS;
-            row(ui, "floor of the room", format!("{:6.1} dBFS", heard.floor_dbfs), loud);
-            let clips = format!("{} times, {} without a breath", health.clips, health.clips_without_breath);
-            row(ui, "at full scale", clips, health.clips_lately());
-            row(ui, "gain control", if heard.gain_control { "seen" } else { "none seen" }, heard.gain_control);
-            row(ui, "detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
-            row(ui, "breath at the lips", format!("{:5.2} m/s", heard.speed), false);
+            row(ui, texts.get(TextId::StaffNoiseFloor), format!("{:6.1} dBFS", heard.floor_dbfs), loud);
+            let clips = clips(texts, health);
+            row(ui, texts.get(TextId::StaffClipping), clips, health.clips_lately());
+            row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, heard), heard.gain_control);
+            row(ui, texts.get(TextId::StaffDetector), decision(texts, heard), false);
+            row(ui, texts.get(TextId::StaffBreathAtLips), format!("{:5.2} m/s", heard.speed), false);
             let capsules = frame.load.audio.capsules;
-            row(ui, "capsules", capsules.to_string(), sight.site.audio.second_capsule_channel > 0 && capsules < 2);
+            row(
+                ui,
+                texts.get(TextId::StaffMicrophones),
+                capsules.to_string(),
+                input.site.audio.second_microphone_channel > 0 && capsules < 2,
+            );
         });
         ui.separator();
         let mut well = true;
         for remedy in health.remedies() {
             well = false;
-            ui.colored_label(BAD, remedy);
+            ui.colored_label(BAD, remedy_text(texts, remedy));
         }
         if well {
-            ui.colored_label(GOOD, "Nothing to mend.");
+            ui.colored_label(GOOD, texts.get(TextId::StaffAllWell));
         }
-        if ui.button("Measure the range anew").clicked() {
+        if ui.button(texts.get(TextId::StaffMeasureAgain)).clicked() {
             self.range = None;
         }
         ui.separator();
-        ui.add_enabled_ui(may && sight.file.is_some(), |ui| self.sensitivity(ui, sight, changes, said));
+        ui.add_enabled_ui(may && input.file.is_some(), |ui| self.sensitivity(ui, input, changes, said));
     }
 
-    fn sensitivity(&mut self, ui: &mut Ui, sight: &Sight, changes: &mut Changes, said: &mut Option<String>) {
-        let now = sight.site.breath.sensitivity_db;
+    fn sensitivity(&mut self, ui: &mut Ui, input: &PanelInput, changes: &mut Changes, said: &mut Option<String>) {
+        let (now, texts) = (input.site.breath.sensitivity_db, input.texts);
         let mut wanted = self.sensitivity.unwrap_or(now);
         let mut save = None;
         ui.horizontal(|ui| {
             let field = DragValue::new(&mut wanted).range(-40.0..=40.0).speed(0.2).fixed_decimals(1).suffix(" dB");
             let response = ui.add(field);
-            ui.label("breath.sensitivity_db, how strong a breath is taken to be");
+            ui.label(texts.get(TextId::StaffSensitivity));
             self.sensitivity = Some(wanted).filter(|_| response.dragged() || response.has_focus());
             save = (response.drag_stopped() || response.lost_focus() && wanted != now).then_some(wanted);
         });
         match &mut self.calibration {
             None => {
-                if ui.button("Calibrate with a breath").clicked() {
+                if ui.button(texts.get(TextId::StaffCalibrate)).clicked() {
                     self.calibration = Some(Calibration::default());
                 }
             }
             Some(calibration) if !calibration.is_over() => {
-                calibration.note(&sight.frame.current.breath.estimate);
+                calibration.note(&input.frame.current.breath.estimate);
                 let left = BREATHS - calibration.breaths;
-                ui.label(format!(
-                    "Blow at the microphone from where visitors stand, as they would, a second or two, {left} times more."
-                ));
-                if ui.button("Stop").clicked() {
+                ui.label(&*texts.format(TextId::StaffCalibrateBlow, &[("count", left.into())]));
+                if ui.button(texts.get(TextId::StaffStop)).clicked() {
                     self.calibration = None;
                 }
             }
             Some(calibration) => {
                 let proposed = calibration.proposal(now).unwrap_or(now);
-                ui.label(format!("If those were normal breaths: {proposed:.0} dB instead of {now:.0} dB."));
+                let (new, old) = (format!("{proposed:.0}").into(), format!("{now:.0}").into());
+                ui.label(&*texts.format(TextId::StaffCalibrated, &[("proposed", new), ("now", old)]));
                 let (mut take, mut forget) = (false, false);
                 ui.horizontal(|ui| {
-                    take = ui.button("Take it over").clicked();
-                    forget = ui.button("Forget it").clicked();
+                    take = ui.button(texts.get(TextId::StaffApply)).clicked();
+                    forget = ui.button(texts.get(TextId::StaffDismiss)).clicked();
                 });
                 save = take.then_some(proposed).or(save);
                 if take || forget {
@@ -147,9 +163,9 @@ impl Microphone {
                 }
             }
         }
-        if let Some((value, file)) = save.zip(sight.file) {
+        if let Some((value, file)) = save.zip(input.file) {
             let made = changes.make(file, |text| with_key(text, "breath", "sensitivity_db", value));
-            *said = Some(made.err().unwrap_or_else(|| format!("Saved in {}.", file.display())));
+            *said = Some(made.err().unwrap_or_else(|| saved_in(texts, file)));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The panel's pages, one a file: each draws itself from a [`Sight`](super::Sight) and remembers what it needs.
+//! The panel's pages, one a file: each draws itself from a [`PanelInput`](super::Sight) and remembers what it needs.
 
 pub(super) mod bodies;
 mod display;
@@ -9,10 +9,13 @@ pub(super) mod microphone;
 pub(super) mod parameters;
 mod plot;
 pub(super) mod sound;
+mod states;
 pub(super) mod status;
 pub(super) mod style;
 pub(super) mod test;
 pub(super) mod wind;
+
+use crate::pages::ui_strings::TextId;
 
 /// A page of the panel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,18 +55,18 @@ impl Page {
         Self::Log,
     ];
 
-    /// The words on its tab.
-    pub(super) fn name(self) -> &'static str {
+    /// The text on its tab.
+    pub(super) fn title(self) -> TextId {
         match self {
-            Self::Status => "Status",
-            Self::Exhibits => "Exhibits",
-            Self::Bodies => "Bodies",
-            Self::Wind => "Wind",
-            Self::Sound => "Sound",
-            Self::Parameters => "Parameters",
-            Self::Microphone => "Microphone",
-            Self::Test => "Test",
-            Self::Log => "Log",
+            Self::Status => TextId::StaffPageStatus,
+            Self::Exhibits => TextId::StaffPageExhibits,
+            Self::Bodies => TextId::StaffPageBodies,
+            Self::Wind => TextId::StaffPageWind,
+            Self::Sound => TextId::StaffPageSound,
+            Self::Parameters => TextId::StaffPageParameters,
+            Self::Microphone => TextId::StaffPageMicrophone,
+            Self::Test => TextId::StaffPageTest,
+            Self::Log => TextId::StaffPageLog,
         }
     }
 }

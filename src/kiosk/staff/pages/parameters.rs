@@ -8,8 +8,9 @@ use std::time::SystemTime;
 use egui::{CollapsingHeader, DragValue, Label, RichText, TextEdit, Ui};
 
 use super::style::BAD;
+use crate::pages::ui_strings::TextId;
 use crate::staff::edit::{Changes, Number, Step, four_digits, numbers, with_number};
-use crate::staff::sight::Sight;
+use crate::staff::panel_input::PanelInput;
 use soffio_exhibit::SIDECAR;
 
 /// Share of its value by which a number changes for a point of dragging.
@@ -28,30 +29,38 @@ pub struct Parameters {
 
 impl Parameters {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, changes: &mut Changes, said: &mut Option<String>) {
-        if let Err(error) = self.read(&sight.frame.exhibit.folder.join(SIDECAR)) {
+    pub fn show(
+        &mut self,
+        ui: &mut Ui,
+        input: &PanelInput,
+        may: bool,
+        changes: &mut Changes,
+        said: &mut Option<String>,
+    ) {
+        if let Err(error) = self.read(&input.frame.exhibit.folder.join(SIDECAR)) {
             ui.colored_label(BAD, error);
         }
-        if let Some(report) = sight.work_says {
-            ui.colored_label(
-                BAD,
-                "As it is saved it does not load; the last good one is on show. Take the change back, or mend it:",
-            );
+        let texts = input.texts;
+        if let Some(report) = input.exhibit_problem {
+            ui.colored_label(BAD, texts.get(TextId::StaffDoesNotLoad));
             ui.add(Label::new(RichText::new(report).monospace().color(BAD)).wrap());
         }
-        ui.label(format!("{}. Drag a number, or press it and type; it is saved when you let go.", self.file.display()));
+        let file = self.file.display().to_string();
+        ui.label(&*texts.format(TextId::StaffParametersHelp, &[("file", file.into())]));
         ui.horizontal(|ui| {
-            let undo = format!("Take back ({})", changes.count());
-            if ui.add_enabled(may && changes.count() > 0, egui::Button::new(undo)).clicked() {
-                *said = Some(changes.undo().err().unwrap_or_else(|| "Taken back.".into()));
+            let undo = texts.format(TextId::StaffUndo, &[("count", changes.count().into())]);
+            if ui.add_enabled(may && changes.count() > 0, egui::Button::new(&*undo)).clicked() {
+                *said = Some(changes.undo().err().unwrap_or_else(|| texts.get(TextId::StaffUndone).into()));
                 self.written = None;
             }
-            ui.add(TextEdit::singleline(&mut self.filter).hint_text("find").desired_width(160.0));
+            ui.add(TextEdit::singleline(&mut self.filter).hint_text(texts.get(TextId::StaffFind)).desired_width(160.0));
         });
         let changed = ui.add_enabled_ui(may, |ui| self.groups(ui)).inner;
         if let Some((place, value)) = changed {
             let made = changes.make(&self.file, |text| with_number(text, &place, value));
-            *said = Some(made.err().unwrap_or_else(|| format!("Saved: {}.", shown(value))));
+            *said = Some(made.err().unwrap_or_else(|| {
+                texts.format(TextId::StaffSavedValue, &[("value", shown(value).into())]).to_string()
+            }));
             self.written = None;
         }
     }

@@ -3,9 +3,10 @@
 use egui::{Slider, Ui};
 
 use super::style::BAD;
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
-use crate::step::voice::{Trial, Tried, timbres};
+use crate::pages::ui_strings::TextId;
+use crate::staff::action::StaffAction;
+use crate::staff::panel_input::PanelInput;
+use crate::step::instruments::{Audition, AuditionTarget, timbres};
 
 /// What the page remembers.
 #[derive(Debug)]
@@ -25,39 +26,39 @@ impl Default for Sound {
 
 impl Sound {
     /// Draws it.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
+    pub fn show(&mut self, ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
         if self.timbres.is_empty() {
             self.timbres = timbres().collect();
         }
-        let frame = sight.frame;
-        if frame.load.loudness.muted || frame.is_mute() {
-            ui.colored_label(BAD, "nothing will be heard: muted, or no loudspeaker");
+        let (frame, texts) = (input.frame, input.texts);
+        if frame.load.loudness.muted || frame.lacks_output() {
+            ui.colored_label(BAD, texts.get(TextId::StaffNothingAudible));
         }
-        ui.add(Slider::new(&mut self.speed, 0.02..=4.0).logarithmic(true).text("speed of the hit, m/s"));
-        ui.add(Slider::new(&mut self.pan, -1.0..=1.0).text("left \u{2026} right"));
+        ui.add(Slider::new(&mut self.speed, 0.02..=4.0).logarithmic(true).text(texts.get(TextId::StaffStrikeSpeed)));
+        ui.add(Slider::new(&mut self.pan, -1.0..=1.0).text(texts.get(TextId::StaffPan)));
         let (speed, pan) = (self.speed, self.pan);
-        let mut play = |ui: &mut Ui, name: &str, tried: Tried| {
+        let mut play = |ui: &mut Ui, name: &str, target: AuditionTarget| {
             if ui.button(name).clicked() {
-                wishes.push(Wish::Try(Trial { tried, speed, pan }));
+                actions.push(StaffAction::PlaySound(Audition { target, speed, pan }));
             }
         };
         ui.separator();
-        ui.label(format!("Of {}", frame.exhibit.id));
+        ui.label(&frame.exhibit.id);
         ui.add_enabled_ui(may, |ui| {
             ui.horizontal_wrapped(|ui| {
                 for sound in &frame.exhibit.sounds {
                     let timbre = &frame.exhibit.instruments[sound.instrument].timbre;
                     // The wind plays the others.
                     if self.timbres.contains(&timbre.as_str()) {
-                        play(ui, &format!("{} ({timbre})", sound.name), Tried::Own(sound.instrument));
+                        play(ui, &format!("{} ({timbre})", sound.name), AuditionTarget::Exhibit(sound.instrument));
                     }
                 }
             });
             ui.separator();
-            ui.label("All timbres, on the body that each is tried on");
+            ui.label(texts.get(TextId::StaffAllTimbres));
             ui.horizontal_wrapped(|ui| {
                 for name in &self.timbres {
-                    play(ui, name, Tried::Timbre(name));
+                    play(ui, name, AuditionTarget::Timbre(name));
                 }
             });
         });

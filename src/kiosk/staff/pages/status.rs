@@ -1,10 +1,14 @@
 //! Is it well? Every number that says so, and what staff do every day.
 
+use std::sync::Arc;
+
 use egui::{Grid, Ui};
 
+use super::states::{clips, decision, device, gain_control, mode, remedy_text, verdict};
 use super::style::{BAD, ROW, row};
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
+use crate::pages::ui_strings::{TextId, UiStrings, Variable};
+use crate::staff::action::StaffAction;
+use crate::staff::panel_input::PanelInput;
 use crate::venue::loudness::NightBy;
 use soffio_devices::audio::{DeviceState, SoundDelay};
 use soffio_devices::controllers::State;
@@ -14,44 +18,47 @@ use soffio_simulation::MotionMode;
 const SHORT_BLOCK_MS: f64 = 5.0;
 
 /// The buttons of every day, then all numbers.
-pub fn show(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
-    buttons(ui, sight, may, wishes);
-    for says in sight.site_says {
-        ui.colored_label(BAD, format!("configuration: {says}"));
+pub fn show(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
+    buttons(ui, input, may, actions);
+    let texts = input.texts;
+    for problem in input.config_problems {
+        let message = problem.as_str().into();
+        ui.colored_label(BAD, &*texts.format(TextId::StaffConfigurationSays, &[("message", message)]));
     }
-    for remedy in sight.frame.load.microphone.remedies() {
-        ui.colored_label(BAD, format!("microphone: {remedy}"));
+    for remedy in input.frame.load.microphone.remedies() {
+        let message = remedy_text(texts, remedy).into();
+        ui.colored_label(BAD, &*texts.format(TextId::StaffMicrophoneSays, &[("message", message)]));
     }
     ui.separator();
-    Grid::new("numbers").num_columns(2).min_row_height(ROW).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, sight));
+    Grid::new("numbers").num_columns(2).min_row_height(ROW).spacing([24.0, 3.0]).show(ui, |ui| numbers(ui, input));
 }
 
-fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
-    let muted = sight.frame.load.loudness.muted;
-    let early = sight.house.is_early();
+fn buttons(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
+    let muted = input.frame.load.loudness.muted;
+    let early = input.venue.is_early();
     ui.add_enabled_ui(may, |ui| {
         ui.horizontal_wrapped(|ui| {
             let mut all = vec![
-                ("Clean the glass", Wish::Clean),
-                (if muted { "Sound on" } else { "Mute" }, Wish::Mute),
-                ("Night", Wish::Night),
-                ("Reset", Wish::Reset),
-                ("Reload exhibit", Wish::Reload),
+                (TextId::StaffClean, StaffAction::Clean),
+                (if muted { TextId::StaffUnmute } else { TextId::StaffMute }, StaffAction::Mute),
+                (TextId::StaffNight, StaffAction::Night),
+                (TextId::StaffReset, StaffAction::Reset),
+                (TextId::StaffReload, StaffAction::Reload),
             ];
-            if early || !sight.house.is_open() {
-                all.push((if early { "Close the house again" } else { "Open now" }, Wish::Open));
+            if early || !input.venue.is_open() {
+                all.push((if early { TextId::StaffCloseAgain } else { TextId::StaffOpenNow }, StaffAction::Open));
             }
-            if sight.site.visit.breath {
+            if input.site.visit.breath {
                 all.extend([
-                    ("Chirp", Wish::Chirp),
-                    ("New foam", Wish::FoamChanged),
-                    ("Listen anew", Wish::ListenAnew),
+                    (TextId::StaffChirp, StaffAction::SelfTest),
+                    (TextId::StaffNewFoam, StaffAction::FoamChanged),
+                    (TextId::StaffNewReference, StaffAction::ResetSelfTest),
                 ]);
             }
-            all.push(("End the kiosk", Wish::Close));
-            for (name, asked) in all {
-                if ui.button(name).clicked() {
-                    wishes.push(asked);
+            all.push((TextId::StaffEnd, StaffAction::Close));
+            for (name, action) in all {
+                if ui.button(input.texts.get(name)).clicked() {
+                    actions.push(action);
                 }
             }
         });
@@ -59,139 +66,191 @@ fn buttons(ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
 }
 
 /// The numbers, one a row.
-fn numbers(ui: &mut Ui, sight: &Sight) {
-    house(ui, sight);
-    microphone(ui, sight);
-    motion(ui, sight);
-    picture(ui, sight);
-    loudspeaker(ui, sight);
-    loudness(ui, sight);
+fn numbers(ui: &mut Ui, input: &PanelInput) {
+    venue(ui, input);
+    microphone(ui, input);
+    motion(ui, input);
+    picture(ui, input);
+    output(ui, input);
+    loudness(ui, input);
 }
 
-fn house(ui: &mut Ui, sight: &Sight) {
-    let house = match (sight.house.is_open(), sight.house.is_early()) {
-        (true, false) => "open",
-        (true, true) => "open, by staff, before its hours",
-        (false, _) => "closed",
+fn venue(ui: &mut Ui, input: &PanelInput) {
+    let texts = input.texts;
+    let venue = match (input.venue.is_open(), input.venue.is_early()) {
+        (true, false) => TextId::StaffVenueOpen,
+        (true, true) => TextId::StaffVenueEarly,
+        (false, _) => TextId::StaffVenueClosed,
     };
-    row(ui, "house", house, false);
-    row(ui, "breath", if sight.site.visit.breath { "wanted" } else { "off: visitors press and hold" }, false);
-    row(ui, "exhibit", sight.frame.exhibit.id.clone(), false);
+    row(ui, texts.get(TextId::StaffVenue), texts.get(venue), false);
+    let breath = if input.site.visit.breath { TextId::StaffBreathAllowed } else { TextId::StaffBreathOff };
+    row(ui, texts.get(TextId::StaffBreathWanted), texts.get(breath), false);
+    row(ui, texts.get(TextId::StaffExhibit), &input.frame.exhibit.id, false);
 }
 
-/// The microphone, its foam, and what is heard of a breath.
-fn microphone(ui: &mut Ui, sight: &Sight) {
-    let frame = sight.frame;
+/// Microphone, foam and breath detection.
+fn microphone(ui: &mut Ui, input: &PanelInput) {
+    let (frame, texts) = (input.frame, input.texts);
     let breath = &frame.current.breath;
     let heard = &breath.estimate;
     let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
-    let capsules = if audio.capsules == 2 { ", two capsules" } else { "" };
     let missing = !frame.hears && audio.input != DeviceState::Closed;
-    row(ui, "microphone", format!("{}{capsules}", audio.input), missing);
-    let level = if frame.hears {
-        format!("{:6.1} dBFS, floor {:6.1}", heard.level_dbfs, heard.floor_dbfs)
+    let mut input_device = device(texts, &audio.input);
+    if audio.capsules == 2 {
+        let name = input_device.into();
+        input_device = texts.format(TextId::StaffMicrophoneDual, &[("device", name)]).to_string();
+    }
+    row(ui, texts.get(TextId::StaffMicrophone), input_device, missing);
+    if frame.hears {
+        let [level, floor] = [heard.level_dbfs, heard.floor_dbfs].map(|level| format!("{level:6.1}").into());
+        let levels = texts.format(TextId::StaffLevelFloor, &[("level", level), ("floor", floor)]);
+        row(ui, texts.get(TextId::StaffLevel), levels, heard.clipping);
     } else {
-        "nothing arrives".into()
+        row(ui, texts.get(TextId::StaffLevel), texts.get(TextId::StaffNoSignal), heard.clipping);
+    }
+    row(ui, texts.get(TextId::StaffClipping), clips(texts, microphone), microphone.clips_lately());
+    let foam = input.persisted.self_test.foam_breaths(input.persisted.counters.breaths());
+    let limit = u64::from(input.site.maintenance.foam_blows);
+    let breaths = match limit {
+        0 => texts.format(TextId::StaffFoamBreaths, &[("count", foam.into())]),
+        limit => texts.format(TextId::StaffFoamBreathsOf, &[("count", foam.into()), ("limit", limit.into())]),
     };
-    row(ui, "level", level, heard.clipping);
-    let clips = format!("{} times, {} without a breath", microphone.clips, microphone.clips_without_breath);
-    row(ui, "at full scale", clips, microphone.clips_lately());
-    let foam = sight.kept.care.foam(sight.kept.tally.breaths());
-    let lasts = u64::from(sight.site.care.foam_blows);
-    let said = if lasts > 0 { format!("{foam} breaths of {lasts}") } else { format!("{foam} breaths") };
-    row(ui, "foam", said, lasts > 0 && foam >= lasts);
-    match &sight.kept.care.last {
-        Some((verdict, when)) => row(ui, "chirp", format!("{verdict}; {when}"), verdict.is_bad()),
-        None => row(ui, "chirp", "none yet", false),
+    row(ui, texts.get(TextId::StaffFoam), breaths, limit > 0 && foam >= limit);
+    match &input.persisted.self_test.last {
+        Some((last, when)) => {
+            let variables = [("verdict", verdict(texts, last).into()), ("when", when.as_str().into())];
+            let text = texts.format(TextId::StaffSelfTestWhen, &variables);
+            row(ui, texts.get(TextId::StaffSelfTest), text, last.is_bad());
+        }
+        None => row(ui, texts.get(TextId::StaffSelfTest), texts.get(TextId::StaffSelfTestNone), false),
     }
-    row(ui, "gain control", if heard.gain_control { "seen" } else { "none seen" }, heard.gain_control);
-    row(ui, "detector", format!("{:?}, {:.2}", heard.reason, heard.confidence), false);
-    row(ui, "breath", format!("{:5.2} m/s heard, {:5.2} m/s blown", heard.speed, breath.speed), false);
+    row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, heard), heard.gain_control);
+    row(ui, texts.get(TextId::StaffDetector), decision(texts, heard), false);
+    let [detected, blown] = [heard.speed, breath.speed].map(|speed| format!("{speed:5.2}").into());
+    let speeds = texts.format(TextId::StaffBreathSpeeds, &[("detected", detected), ("blown", blown)]);
+    row(ui, texts.get(TextId::StaffBreath), speeds, false);
 }
 
-/// What moves, and how well the thread that moves it keeps up.
-fn motion(ui: &mut Ui, sight: &Sight) {
-    let (frame, load) = (sight.frame, &sight.frame.load);
+/// Motion, and the load of the simulation thread.
+fn motion(ui: &mut Ui, input: &PanelInput) {
+    let (frame, load, texts) = (input.frame, &input.frame.load, input.texts);
     let state = &frame.current.diagnostics;
-    row(ui, "wind force", format!("{:.4} N", state.wind_force.length()), false);
-    row(ui, "attract mode", if frame.attracts { "playing" } else { "waiting" }, false);
-    row(ui, "joint error", format!("{:.2e} m", state.joint_error), state.joint_error > 1e-3);
-    row(ui, "energy", format!("{:.4} J", state.energy), false);
-    row(ui, "substeps", state.substeps.to_string(), false);
-    row(ui, "impacts", state.impacts.to_string(), false);
-    row(ui, "faults", state.faults.to_string(), state.faults > 0);
-    row(ui, "step", format!("{:.3} ms of 4.167", 1e3 * load.step_s), load.step_s > 1.0 / 240.0);
-    let changes = load.mode_changes;
-    row(ui, "moved by", format!("{}, {changes} changes", state.mode.name()), state.mode != MotionMode::Dynamic);
-    row(ui, "hands", state.grabs.to_string(), false);
-    row(ui, "steps dropped", load.dropped.to_string(), false);
-    row(ui, "commands dropped", load.commands_dropped.to_string(), load.commands_dropped > 0);
+    let attract = if frame.attracts { TextId::StaffAttractPlaying } else { TextId::StaffAttractWaiting };
+    row(ui, texts.get(TextId::StaffWindForce), format!("{:.4} N", state.wind_force.length()), false);
+    row(ui, texts.get(TextId::StaffAttract), texts.get(attract), false);
+    let error = format!("{:.2e} m", state.joint_error);
+    row(ui, texts.get(TextId::StaffJointError), error, state.joint_error > 1e-3);
+    row(ui, texts.get(TextId::StaffEnergy), format!("{:.4} J", state.energy), false);
+    row(ui, texts.get(TextId::StaffSubsteps), state.substeps.to_string(), false);
+    row(ui, texts.get(TextId::StaffImpacts), state.impacts.to_string(), false);
+    row(ui, texts.get(TextId::StaffFaults), state.faults.to_string(), state.faults > 0);
+    let ms = format!("{:.3}", 1e3 * load.step_s).into();
+    let step = texts.format(TextId::StaffStepTime, &[("ms", ms), ("limit", "4.167".into())]);
+    row(ui, texts.get(TextId::StaffStep), step, load.step_s > 1.0 / 240.0);
+    let mode = texts.get(mode(state.mode)).into();
+    let changes = texts.format(TextId::StaffMotionChanges, &[("mode", mode), ("count", load.mode_changes.into())]);
+    row(ui, texts.get(TextId::StaffMotion), changes, state.mode != MotionMode::Dynamic);
+    row(ui, texts.get(TextId::StaffPointerGrabs), state.grabs.to_string(), false);
+    row(ui, texts.get(TextId::StaffStepsDropped), load.dropped.to_string(), false);
+    row(ui, texts.get(TextId::StaffCommandsDropped), load.commands_dropped.to_string(), load.commands_dropped > 0);
 }
 
-fn picture(ui: &mut Ui, sight: &Sight) {
-    let vitals = &sight.vitals;
+fn picture(ui: &mut Ui, input: &PanelInput) {
+    let (vitals, texts) = (&input.vitals, input.texts);
     let [width, height] = vitals.size;
-    row(ui, "picture", format!("{:.1} ms, {width}x{height}", 1e3 * vitals.frame_s), false);
-    row(ui, "wind to picture", format!("{:.0} ms", 1e3 * vitals.sight_s), vitals.sight_s > 0.25);
-    row(ui, "graphics", vitals.adapter, false);
-    for (kind, state) in &sight.frame.load.controllers {
+    row(ui, texts.get(TextId::StaffPicture), format!("{:.1} ms, {width}x{height}", 1e3 * vitals.frame_s), false);
+    row(
+        ui,
+        texts.get(TextId::StaffWindToPicture),
+        format!("{:.0} ms", 1e3 * vitals.onset_latency_s),
+        vitals.onset_latency_s > 0.25,
+    );
+    row(ui, texts.get(TextId::StaffGraphics), vitals.adapter, false);
+    for (kind, state) in &input.frame.load.controllers {
         let (State::Listening(said) | State::Waiting(said)) = state;
-        row(ui, kind, said.clone(), false);
+        row(ui, kind, said, false);
     }
 }
 
-fn loudspeaker(ui: &mut Ui, sight: &Sight) {
-    let audio = &sight.frame.load.audio;
-    row(ui, "loudspeaker", audio.output.to_string(), false);
+fn output(ui: &mut Ui, input: &PanelInput) {
+    let (audio, texts) = (&input.frame.load.audio, input.texts);
+    row(ui, texts.get(TextId::StaffLoudspeaker), device(texts, &audio.output), false);
     if let Some(state) = &audio.hearing_loop {
-        row(ui, "hearing loop", state.to_string(), !matches!(state, DeviceState::Ok { .. }));
+        let missing = !matches!(state, DeviceState::Ok { .. });
+        row(ui, texts.get(TextId::StaffHearingLoop), device(texts, state), missing);
     }
     if let Some(delay) = &audio.delay {
-        row(ui, "step to sound", sound_delay(delay), false);
-        row(ui, "block", block(delay.block_s, sight.site.audio.block_ms, audio.shortest_block_s), false);
+        row(ui, texts.get(TextId::StaffStepToSound), sound_delay(texts, delay), false);
+        let block = block(texts, delay.block_s, input.site.audio.block_ms, audio.shortest_block_s);
+        row(ui, texts.get(TextId::StaffBlock), block, false);
     }
-    row(ui, "late blocks", audio.xruns.to_string(), audio.xruns > 0);
-    row(ui, "sounds lost", audio.lost.to_string(), audio.lost > 0);
+    row(ui, texts.get(TextId::StaffLateBlocks), audio.xruns.to_string(), audio.xruns > 0);
+    row(ui, texts.get(TextId::StaffSoundsLost), audio.lost.to_string(), audio.lost > 0);
 }
 
-/// What a sound waits for, part by part.
-fn sound_delay(delay: &SoundDelay) -> String {
-    let ms = |seconds: f64| format!("{:.1}", 1e3 * seconds);
-    let device = delay.device_s.map_or("device says nothing".into(), |device| format!("device {}", ms(device)));
-    let (step, block, limiter) = (ms(delay.step_s), ms(delay.block_s), ms(delay.limiter_s));
-    format!("{} ms: step {step}, block {block}, limiter {limiter}, {device}", ms(delay.total_s()))
+/// Latency from a step to its sound, by parts.
+fn sound_delay(texts: &UiStrings, delay: &SoundDelay) -> Arc<str> {
+    let ms = |seconds: f64| Variable::from(format!("{:.1}", 1e3 * seconds));
+    let parts = [
+        ("total", ms(delay.total_s())),
+        ("step", ms(delay.step_s)),
+        ("block", ms(delay.block_s)),
+        ("limiter", ms(delay.limiter_s)),
+    ];
+    match delay.device_s {
+        None => texts.format(TextId::StaffSoundDelayUnknown, &parts),
+        Some(device) => {
+            let parts: Vec<_> = parts.into_iter().chain([("device", ms(device))]).collect();
+            texts.format(TextId::StaffSoundDelay, &parts)
+        }
+    }
 }
 
-/// The block that plays, beside the one asked for and a shorter one that the device offers.
-fn block(plays_s: f64, wanted_ms: f64, shortest_s: Option<f64>) -> String {
-    let said = format!("{:.1} ms, {wanted_ms:.1} wanted", 1e3 * plays_s);
+/// Length of the output's block, beside the configured one and a shorter one that the device offers.
+fn block(texts: &UiStrings, plays_s: f64, wanted_ms: f64, shortest_s: Option<f64>) -> Arc<str> {
+    let ms = ("ms", Variable::from(format!("{:.1}", 1e3 * plays_s)));
+    let wanted = ("wanted", Variable::from(format!("{wanted_ms:.1}")));
     match shortest_s.map(|shortest| 1e3 * shortest) {
         Some(shortest) if shortest <= SHORT_BLOCK_MS && wanted_ms > SHORT_BLOCK_MS => {
-            format!("{said}; audio.block_ms = {SHORT_BLOCK_MS:.0} is possible here")
+            let possible = format!("{SHORT_BLOCK_MS:.0}").into();
+            texts.format(TextId::StaffBlockShorter, &[ms, wanted, ("possible", possible)])
         }
-        Some(shortest) if shortest > wanted_ms => format!("{said}; the device's shortest is {shortest:.1}"),
-        _ => said,
+        Some(shortest) if shortest > wanted_ms => {
+            let shortest = format!("{shortest:.1}").into();
+            texts.format(TextId::StaffBlockShortest, &[ms, wanted, ("shortest", shortest)])
+        }
+        _ => texts.format(TextId::StaffBlockIs, &[ms, wanted]),
     }
 }
 
-fn loudness(ui: &mut Ui, sight: &Sight) {
-    let loud = &sight.frame.load.loudness;
-    let muted = if loud.muted { ", muted" } else { "" };
-    let eased = if loud.eased_db > 0.0 { format!(", {:.1} dB eased", loud.eased_db) } else { String::new() };
-    row(ui, "volume", format!("{:.1} dB, {:+} steps{eased}{muted}", loud.volume_db, loud.steps), loud.muted);
+fn loudness(ui: &mut Ui, input: &PanelInput) {
+    let (loud, texts) = (&input.frame.load.loudness, input.texts);
+    let (db, steps) = (format!("{:.1}", loud.volume_db).into(), format!("{:+}", loud.steps).into());
+    let mut volume = texts.format(TextId::StaffVolumeIs, &[("db", db), ("steps", steps)]);
+    if loud.eased_db > 0.0 {
+        let variables = [("volume", (&*volume).into()), ("db", format!("{:.1}", loud.eased_db).into())];
+        volume = texts.format(TextId::StaffVolumeAttenuated, &variables);
+    }
+    if loud.muted {
+        volume = texts.format(TextId::StaffVolumeMuted, &[("volume", (&*volume).into())]);
+    }
+    row(ui, texts.get(TextId::StaffVolume), volume, loud.muted);
+    let mode = texts.get(if loud.night { TextId::StaffSoundNight } else { TextId::StaffSoundDay });
     let by = match loud.by {
-        NightBy::Hours => "the hours",
-        NightBy::Night | NightBy::Day => "staff",
+        NightBy::Hours => TextId::StaffSoundByHours,
+        NightBy::Night | NightBy::Day => TextId::StaffSoundByStaff,
     };
-    row(ui, "sound of the", format!("{}, by {by}", if loud.night { "night" } else { "day" }), false);
-    for (name, level, laeq) in
-        [("level, minute", loud.level_db[0], loud.laeq_db[0]), ("level, day", loud.level_db[1], loud.laeq_db[1])]
-    {
+    row(ui, texts.get(TextId::StaffSoundOfThe), texts.format(by, &[("mode", mode.into())]), false);
+    for (name, level, laeq) in [
+        (TextId::StaffLevelMinute, loud.level_db[0], loud.laeq_db[0]),
+        (TextId::StaffLevelDay, loud.level_db[1], loud.laeq_db[1]),
+    ] {
+        let db = |level: f64| [("db", Variable::from(format!("{level:.1}")))];
         let value = match laeq {
-            Some(laeq) => format!("{laeq:.1} dB(A)"),
-            None if level.is_finite() => format!("{level:.1} dB(A) of full scale, not calibrated"),
-            None => "silent".into(),
+            Some(laeq) => texts.format(TextId::StaffLevelCalibrated, &db(laeq)),
+            None if level.is_finite() => texts.format(TextId::StaffLevelUncalibrated, &db(level)),
+            None => texts.get(TextId::StaffLevelSilent).into(),
         };
-        row(ui, name, value, false);
+        row(ui, texts.get(name), value, false);
     }
 }

@@ -20,9 +20,9 @@ pub(crate) fn width(context: &egui::Context) -> f32 {
 }
 
 /// One row of a grid of names and values.
-pub(crate) fn row(ui: &mut Ui, name: &str, value: impl Into<String>, bad: bool) {
+pub(crate) fn row(ui: &mut Ui, name: &str, value: impl AsRef<str>, bad: bool) {
     ui.label(name);
-    let text = RichText::new(value).monospace();
+    let text = RichText::new(value.as_ref()).monospace();
     ui.add(egui::Label::new(if bad { text.color(BAD) } else { text }).wrap());
     ui.end_row();
 }

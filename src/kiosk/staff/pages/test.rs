@@ -4,10 +4,12 @@
 use egui::{Align2, Color32, FontId, LayerId, Order, Ui, vec2};
 
 use super::display::Pattern;
+use super::states::reason;
 use super::style::{ROW, row};
-use crate::staff::sight::Sight;
-use crate::staff::wish::Wish;
-use crate::step::voice::{Trial, Tried};
+use crate::pages::ui_strings::{TextId, UiStrings};
+use crate::staff::action::StaffAction;
+use crate::staff::panel_input::PanelInput;
+use crate::step::instruments::{Audition, AuditionTarget};
 
 /// The timbre that loudspeakers are told apart by, and the speed of its hit, m/s.
 const CALL: (&str, f64) = ("wood", 1.0);
@@ -77,47 +79,56 @@ impl Test {
     }
 
     /// Draws the page.
-    pub fn show(&mut self, ui: &mut Ui, sight: &Sight, may: bool, wishes: &mut Vec<Wish>) {
-        ui.heading("Glass");
+    pub fn show(&mut self, ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
+        let texts = input.texts;
+        ui.heading(texts.get(TextId::StaffGlass));
         let down = self.touches().count();
-        ui.label(format!("Press the picture with one finger or many: a ring follows each. Down now: {down}."));
-        if ui.button("Wipe the traces").clicked() {
+        ui.label(&*texts.format(TextId::StaffGlassHelp, &[("count", down.into())]));
+        if ui.button(texts.get(TextId::StaffClearTraces)).clicked() {
             self.fingers.clear();
         }
-        ui.heading("Display");
-        ui.label("Grey steps, edges, then colours for dead pixels; each press turns to the next.");
-        if ui.button("Show them").clicked() {
+        ui.heading(texts.get(TextId::StaffDisplay));
+        ui.label(texts.get(TextId::StaffDisplayHelp));
+        if ui.button(texts.get(TextId::StaffShowPatterns)).clicked() {
             self.pattern = Some(Pattern::FIRST);
         }
-        ui.heading("Loudspeakers");
+        ui.heading(texts.get(TextId::StaffLoudspeakers));
         ui.add_enabled_ui(may, |ui| {
             ui.horizontal(|ui| {
-                for (name, pan) in [("Left", -1.0), ("Both", 0.0), ("Right", 1.0)] {
-                    if ui.button(name).clicked() {
+                for (name, pan) in [(TextId::StaffLeft, -1.0), (TextId::StaffBoth, 0.0), (TextId::StaffRight, 1.0)] {
+                    if ui.button(texts.get(name)).clicked() {
                         let (timbre, speed) = CALL;
-                        wishes.push(Wish::Try(Trial { tried: Tried::Timbre(timbre), speed, pan }));
+                        actions.push(StaffAction::PlaySound(Audition {
+                            target: AuditionTarget::Timbre(timbre),
+                            speed,
+                            pan,
+                        }));
                     }
                 }
             });
         });
-        ui.heading("Microphone");
-        let heard = &sight.frame.current.breath.estimate;
+        ui.heading(texts.get(TextId::StaffPageMicrophone));
+        let heard = &input.frame.current.breath.estimate;
         egui::Grid::new("decision").num_columns(2).min_row_height(ROW).show(ui, |ui| {
-            let decision = if heard.speed > 0.0 { "a breath" } else { "no breath" };
-            row(ui, "decision", if sight.frame.hears { decision } else { "nothing arrives" }, !sight.frame.hears);
-            row(ui, "because", format!("{:?}", heard.reason), false);
-            row(ui, "sure by", format!("{:.2}", heard.confidence), false);
-            row(ui, "speed", format!("{:.2} m/s", heard.speed), false);
+            let decided = match (input.frame.hears, heard.speed > 0.0) {
+                (false, _) => TextId::StaffNoSignal,
+                (true, false) => TextId::StaffDecisionNone,
+                (true, true) => TextId::StaffDecisionBreath,
+            };
+            row(ui, texts.get(TextId::StaffDecision), texts.get(decided), !input.frame.hears);
+            row(ui, texts.get(TextId::StaffBecause), texts.get(reason(heard.reason)), false);
+            row(ui, texts.get(TextId::StaffConfidence), format!("{:.2}", heard.confidence), false);
+            row(ui, texts.get(TextId::StaffSpeed), format!("{:.2} m/s", heard.speed), false);
         });
     }
 
     /// Draws what lies over the picture: rings round fingers, or a picture of its own over everything.
-    pub fn paint(&self, context: &egui::Context) {
+    pub fn paint(&self, context: &egui::Context, texts: &UiStrings) {
         let picture = context.content_rect();
         let layer = LayerId::new(Order::Foreground, egui::Id::unique("test"));
         let painter = context.layer_painter(layer);
         if let Some(pattern) = self.pattern {
-            return pattern.paint(&painter, picture);
+            return pattern.paint(&painter, picture, texts);
         }
         let place = |[x, y]: [f64; 2]| picture.lerp_inside(vec2(x as f32, y as f32));
         for (index, finger) in self.fingers.iter().enumerate() {

@@ -1,56 +1,56 @@
-//! The staff's side: the panel, the log behind it, the cursor for it, and what they are told of devices.
+//! State for staff: the panel, its log, the cursor, and reports about devices.
 
-use crate::live::Frame;
-use crate::staff::Staff;
+use crate::live::LiveState;
+use crate::staff::StaffPanel;
 use crate::staff::log::Log;
 use soffio_devices::audio::DeviceState;
 
-/// What staff have before them.
-pub(crate) struct Desk {
-    pub panel: Staff,
+/// State for staff.
+pub(crate) struct StaffDesk {
+    pub panel: StaffPanel,
     pub log: Log,
     /// Is the cursor shown?
     cursor: bool,
-    /// What was last said of the microphone and of the loudspeaker: is it missing?
-    deaf: bool,
-    mute: bool,
+    /// Last reported: is the microphone missing, is the loudspeaker missing?
+    microphone_missing: bool,
+    output_missing: bool,
 }
 
-impl Desk {
+impl StaffDesk {
     /// The panel is closed and nothing is missing.
     pub fn new(log: Log) -> Self {
-        Self { panel: Staff::default(), log, cursor: false, deaf: false, mute: false }
+        Self { panel: StaffPanel::default(), log, cursor: false, microphone_missing: false, output_missing: false }
     }
 
-    /// For staff, on the panel and in the log; `time`, s.
+    /// Shows a message to staff, on the panel and in the log; `time` in s.
     pub fn say(&mut self, time: f64, message: String) {
         tracing::info!("{message}");
-        self.panel.say(time, message);
+        self.panel.show_message(time, message);
     }
 
-    /// Staff hear of a device that is missing, and of its return.
-    pub fn follow_devices(&mut self, time: f64, frame: &Frame) {
-        if frame.is_deaf() != self.deaf {
-            self.deaf = frame.is_deaf();
-            let said = match self.deaf {
-                true if frame.load.audio.input == DeviceState::Closed => "the microphone is closed",
+    /// Reports missing devices, and their return.
+    pub fn report_devices(&mut self, time: f64, frame: &LiveState) {
+        if frame.lacks_microphone() != self.microphone_missing {
+            self.microphone_missing = frame.lacks_microphone();
+            let said = match self.microphone_missing {
+                true if frame.load.audio.input == DeviceState::Closed => "the microphone is off",
                 true if frame.load.microphone.is_silent() => "the microphone is silent: muted, or its cable is out",
                 true => "no microphone: visitors press and hold to blow; `soffio doctor` says more",
-                false => "the microphone listens",
+                false => "the microphone works",
             };
             self.say(time, said.into());
         }
-        if frame.is_mute() != self.mute {
-            self.mute = frame.is_mute();
-            let said = match self.mute {
+        if frame.lacks_output() != self.output_missing {
+            self.output_missing = frame.lacks_output();
+            let said = match self.output_missing {
                 true => "no loudspeaker: the exhibit moves in silence; `soffio doctor` says more",
-                false => "the loudspeaker sounds",
+                false => "the loudspeaker works",
             };
             self.say(time, said.into());
         }
     }
 
-    /// Whether the cursor is to be shown from now on, where that has changed.
+    /// Changed visibility of the cursor; `None` where it has not changed.
     pub fn cursor(&mut self) -> Option<bool> {
         let open = self.panel.is_open();
         (std::mem::replace(&mut self.cursor, open) != open).then_some(open)

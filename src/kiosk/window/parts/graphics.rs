@@ -1,48 +1,55 @@
-//! The graphics devices, one after another, and what is drawn with them: the moment shown, the camera's sway.
+//! The graphics device and its replacement, the state shown, and the camera sway.
 
 use std::sync::Arc;
 
 use winit::window::Window;
 
-use crate::attract::drift::Drift;
+use crate::attract::camera_sway::CameraSway;
 use crate::window::screen::Screen;
-use crate::window::workbench::Workbench;
+use crate::window::shader_watcher::ShaderWatcher;
 use soffio_exhibit::Exhibit;
 use soffio_simulation::Snapshot;
 
-/// Graphics devices that may be lost before the kiosk ends and leaves mending to whoever supervises it.
+/// Lost graphics devices after which the kiosk ends, to be restarted by its supervisor.
 const LOST_DEVICES: u32 = 3;
 
-/// What draws.
+/// State of the graphics.
 pub(crate) struct Graphics {
     pub instance: wgpu::Instance,
-    /// Shaders that somebody works on.
-    pub workbench: Option<Workbench>,
-    pub drift: Drift,
-    /// What is shown; kept so that a picture needs no new memory for it.
+    /// Reloads changed shaders.
+    pub shader_watcher: Option<ShaderWatcher>,
+    pub camera_sway: CameraSway,
+    /// State that the frame shows; reused to avoid allocations.
     pub moment: Snapshot,
-    /// The device is destroyed once, after so many seconds.
+    /// Time at which the device is destroyed once, s.
     pub lose_device_at: Option<f64>,
     lost: u32,
 }
 
 impl Graphics {
-    /// Nothing is drawn yet.
-    pub fn new(instance: wgpu::Instance, workbench: Option<Workbench>, lose_device_at: Option<f64>) -> Self {
-        Self { instance, workbench, drift: Drift::default(), moment: Snapshot::default(), lose_device_at, lost: 0 }
+    /// Without a device yet.
+    pub fn new(instance: wgpu::Instance, shader_watcher: Option<ShaderWatcher>, lose_device_at: Option<f64>) -> Self {
+        Self {
+            instance,
+            shader_watcher,
+            camera_sway: CameraSway::default(),
+            moment: Snapshot::default(),
+            lose_device_at,
+            lost: 0,
+        }
     }
 
-    /// A device for a window.
+    /// Opens a device for a window.
     pub fn open(&self, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Screen, String> {
         Screen::new(self.instance.clone(), window, exhibit)
     }
 
-    /// Is the device to be destroyed now, at `time`, s? Once.
+    /// Must the device be destroyed now, at `time`, s? True once.
     pub fn loses_device(&mut self, time: f64) -> bool {
         self.lose_device_at.take_if(|at| time >= *at).is_some()
     }
 
-    /// A new device in the place of one that is lost; the error says why there is none.
+    /// Opens a new device in place of a lost one; the error says why there is none.
     pub fn replace(&mut self, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Screen, String> {
         self.lost += 1;
         if self.lost > LOST_DEVICES {
@@ -50,7 +57,7 @@ impl Graphics {
         }
         let screen = self.open(window, exhibit)?;
         tracing::info!("a new graphics device draws in the old window: {}", screen.adapter().0);
-        self.workbench = self.workbench.take().map(Workbench::again);
+        self.shader_watcher = self.shader_watcher.take().map(ShaderWatcher::restarted);
         Ok(screen)
     }
 }

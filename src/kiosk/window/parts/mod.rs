@@ -1,10 +1,10 @@
-//! What the window thread owns, each concern a part of its own: none of them knows another.
+//! Parts of the window thread's state, one for each concern, independent of each other.
 
 pub(super) mod desk;
+pub(super) mod exhibits;
 pub(super) mod graphics;
-pub(super) mod life;
-pub(super) mod overlaid;
+pub(super) mod lifecycle;
+pub(super) mod overlays;
 pub(super) mod pacing;
 pub(super) mod setup;
 pub(super) mod visit;
-pub(super) mod works;

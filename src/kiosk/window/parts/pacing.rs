@@ -1,102 +1,102 @@
-//! When pictures are drawn, how finely, and how many there have been.
+//! Frame pacing, quality tiers, idle rendering, and counts of frames.
 
 use std::time::Instant;
 
-use crate::live::Frame;
-use crate::step::stillness::PICTURE_S;
-use crate::window::rest::{Rest, Signs};
+use crate::live::LiveState;
+use crate::step::idle_detection::IDLE_FRAME_S;
+use crate::window::idle_rendering::{FrameActivity, IdleRendering};
+use crate::window::quality_tiers::{QualityController, QualityTier};
 use crate::window::screen::Drawn;
-use crate::window::tiers::{Tier, Tiers};
-use crate::window::timing::{Clock, FirstSight};
+use crate::window::timing::{FrameClock, OnsetLatency};
 use soffio_simulation::Snapshot;
 
-/// Refresh of a display that does not say it, s.
+/// Assumed refresh interval of a display that does not report it, s.
 const COMMON_REFRESH: f64 = 1.0 / 60.0;
 
-/// The rhythm of the pictures.
+/// State of frame pacing.
 #[derive(Default)]
 pub(crate) struct Pacing {
-    pub clock: Clock,
-    pub sight: FirstSight,
-    pub tiers: Tiers,
-    rest: Rest,
-    /// Events of the window so far, but for its own pictures.
+    pub clock: FrameClock,
+    pub onset_latency: OnsetLatency,
+    pub quality: QualityController,
+    idle: IdleRendering,
+    /// Number of window events so far, except redraws.
     inputs: u64,
     counts: Counts,
 }
 
-/// Pictures so far.
+/// Counts of frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
     pub shown: u64,
-    /// Those of them after which the next one waited because nothing moved.
+    /// Idle ones among them.
     pub at_rest: u64,
-    /// For which the display was off.
+    /// Frames while the display was off.
     pub dark: u64,
 }
 
-/// The picture that is begun.
+/// A started frame.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Begun {
-    /// When it was begun, and the one before it.
+pub(crate) struct FrameStart {
+    /// Start of this frame, and of the one before.
     pub now: Instant,
     pub last: Instant,
-    /// Did it wait because nothing moved?
+    /// Did it wait in idle rendering?
     pub rested: bool,
-    /// Does the next one?
+    /// May the next one wait?
     pub rests: bool,
-    /// The time that it shows.
+    /// Time that it shows.
     pub shown: Instant,
 }
 
 impl Pacing {
-    /// Seconds since the kiosk began.
+    /// Time since the start of the kiosk, s.
     pub fn time(&self) -> f64 {
         self.clock.seconds(Instant::now())
     }
 
-    /// Something happened: the picture that waits because nothing moved is due at once.
+    /// Ends the wait of idle rendering: the next frame is due at once.
     pub fn wake(&mut self) {
-        if self.rest.rests() {
+        if self.idle.is_idle() {
             self.clock.next = Instant::now();
         }
     }
 
     /// An event of the window.
-    pub fn note_input(&mut self) {
+    pub fn count_input(&mut self) {
         self.inputs += 1;
         self.wake();
     }
 
     /// Another tier, where the machine keeps up with it better; `least` is the shortest time between two pictures, s, and
     /// `refresh` that of the display. Nothing is learnt while the picture is black.
-    pub fn keep_up(&mut self, now: Instant, open: bool, least: f64, refresh: Option<f64>) -> Option<Tier> {
-        let asked = least.max(refresh.unwrap_or(COMMON_REFRESH));
+    pub fn adapt_quality(&mut self, now: Instant, open: bool, least: f64, refresh: Option<f64>) -> Option<QualityTier> {
+        let target = least.max(refresh.unwrap_or(COMMON_REFRESH));
         let passed = now.duration_since(self.clock.last).as_secs_f64();
-        // The way to a picture that had time says nothing of the machine.
-        let changed = open && !self.rest.rests() && self.tiers.note(passed, asked);
-        changed.then(|| self.tiers.tier())
+        // An interval in idle rendering is not the machine's fault.
+        let changed = open && !self.idle.is_idle() && self.quality.record(passed, target);
+        changed.then(|| self.quality.tier())
     }
 
-    /// Begins a picture; the next one comes not before `least` seconds.
-    pub fn begin(&mut self, now: Instant, still: bool, page_moves: bool, least: f64) -> Begun {
-        let (last, rested) = (self.clock.last, self.rest.rests());
-        let rests = self.rest.note(self.clock.seconds(now), Signs { still, page_moves, inputs: self.inputs });
-        let shown = self.clock.tick(now, if rests { least.max(PICTURE_S) } else { least });
-        Begun { now, last, rested, rests, shown }
+    /// Starts a frame; the next one is due after `least` seconds.
+    pub fn begin(&mut self, now: Instant, still: bool, page_moves: bool, least: f64) -> FrameStart {
+        let (last, rested) = (self.clock.last, self.idle.is_idle());
+        let rests = self.idle.update(self.clock.seconds(now), FrameActivity { still, page_moves, inputs: self.inputs });
+        let shown = self.clock.tick(now, if rests { least.max(IDLE_FRAME_S) } else { least });
+        FrameStart { now, last, rested, rests, shown }
     }
 
-    /// Counts a picture of `moment`.
-    pub fn note(&mut self, drawn: Drawn, picture: &Begun, frame: &Frame, moment: &Snapshot) {
+    /// Records a frame of `moment`.
+    pub fn record(&mut self, drawn: Drawn, picture: &FrameStart, frame: &LiveState, moment: &Snapshot) {
         if drawn == Drawn::Shown {
-            self.sight.note(frame, moment, picture.now);
+            self.onset_latency.record(frame, moment, picture.now);
             self.counts.shown += 1;
             self.counts.at_rest += u64::from(picture.rests);
         }
         self.counts.dark += u64::from(drawn == Drawn::Dark);
     }
 
-    /// Pictures so far.
+    /// Counts of frames.
     pub fn counts(&self) -> Counts {
         self.counts
     }

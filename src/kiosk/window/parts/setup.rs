@@ -1,62 +1,66 @@
-//! The configuration of this run, its file, and what is wrong with it.
+//! The configuration of this run, its file and its problems.
 
 use crate::fleet::SAFE_MODE;
-use crate::venue::site::{News, Overrides, Site, SiteFile, waits_for_restart};
+use crate::venue::site::{ConfigEvent, ConfigWatcher, Overrides, Site, waits_for_restart};
 use crate::visitor::input::Keys;
-use soffio_config::Config;
+use soffio_config::{Config, LoadedConfig};
 
-/// How the site wants its kiosk.
+/// Configuration of this run.
 pub(crate) struct Setup {
     pub config: Config,
-    pub file: Option<SiteFile>,
-    /// What staff should know of the configuration: what is wrong with it, what waits for a restart.
-    pub says: Vec<String>,
-    /// What the command line says over the file.
+    pub file: Option<ConfigWatcher>,
+    /// Problems of the configuration for staff: mistakes, old names, and keys that wait for a restart.
+    pub problems: Vec<String>,
+    /// Old names in the file at the start; [`Self::problems`] get them when the run begins.
+    pub warnings: Vec<String>,
+    /// Options of the command line that take precedence over the file.
     pub overrides: Overrides,
-    /// Of all that is random.
+    /// Seed of all random numbers.
     pub seed: u64,
-    /// Is there one exhibit only?
+    /// Is there only one exhibit?
     pub one: bool,
 }
 
-/// What a good configuration changes for the window.
+/// Changes by a valid configuration.
 pub(crate) struct Change {
     /// The configuration before.
     pub before: Config,
-    /// What visitors find is another.
+    /// The settings of visits have changed.
     pub visit: bool,
     /// The exhibits are offered in another order.
     pub reordered: bool,
 }
 
 impl Setup {
-    /// Somebody's desk and not the gallery?
+    /// Does the kiosk run in a window on a desk, not in the gallery?
     pub fn on_desk(&self) -> bool {
         !self.config.screen.fullscreen
     }
 
     /// The next change of the file.
-    pub fn news(&self) -> Option<News> {
-        self.file.as_ref().and_then(SiteFile::news)
+    pub fn next_event(&self) -> Option<ConfigEvent> {
+        self.file.as_ref().and_then(ConfigWatcher::next_event)
     }
 
-    /// Takes over a good configuration, but for what waits for a restart; `safe` mode says so. `Err` says whether the file was
-    /// broken before, where nothing else has changed.
-    pub fn take_over(&mut self, mut config: Config, safe: bool) -> Result<Change, bool> {
-        let mended = !self.says.is_empty();
-        self.says.clear();
-        self.says.extend(safe.then(|| SAFE_MODE.into()));
+    /// Takes over a valid configuration, except the keys that wait for a restart. `safe` says whether the kiosk is in safe
+    /// mode. `Err` is returned where nothing has changed, and says whether the file had problems before.
+    pub fn take_over(&mut self, loaded: LoadedConfig, safe: bool) -> Result<Change, bool> {
+        let was_broken = !self.problems.is_empty();
+        self.problems.clear();
+        self.problems.extend(safe.then(|| SAFE_MODE.into()));
+        self.problems.extend(loaded.warning_texts());
+        let mut config = self.overrides.apply(loaded.config);
         let waits = waits_for_restart(&self.config, &config);
         if !waits.is_empty() {
-            let says = format!("{}: from the next start on", waits.join(", "));
-            tracing::warn!("{says}");
-            self.says.push(says);
+            let problem = format!("{}: takes effect at the next start", waits.join(", "));
+            tracing::warn!("{problem}");
+            self.problems.push(problem);
         }
         config.screen.fullscreen = self.config.screen.fullscreen;
         let (old, new) = (&self.config.exhibits, &mut config.exhibits);
         (new.folder, new.hot_reload) = (old.folder.clone(), old.hot_reload);
         if config == self.config {
-            return Err(mended);
+            return Err(was_broken);
         }
         let reordered = config.exhibits.show != self.config.exhibits.show && !self.one;
         let visit = config.visit != self.config.visit;
@@ -64,12 +68,12 @@ impl Setup {
         Ok(Change { before, visit, reordered })
     }
 
-    /// What the simulation needs of it.
+    /// Settings for the simulation.
     pub fn site(&self) -> Site {
         Site::new(&self.config, self.seed)
     }
 
-    /// The keys that the site chooses; `menu`: the page is open.
+    /// Keys of the configuration; `menu`: the page is open.
     pub fn keys(&self, menu: bool) -> Keys<'_> {
         let staff = &self.config.staff;
         Keys {

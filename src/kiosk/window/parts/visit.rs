@@ -1,47 +1,47 @@
-//! The visit: what the visitor does, has chosen and has given, and whether anybody is there.
+//! The visit: input, accessibility settings, breath time, and whether a visitor is present.
 
 use winit::keyboard::ModifiersState;
 
 use crate::step::command::KioskCommand;
 use crate::step::inbox::Inbox;
+use crate::visitor::accessibility::AccessibilitySettings;
+use crate::visitor::breath_time::BreathTime;
 use crate::visitor::dwell::Dwell;
-use crate::visitor::given::Given;
 use crate::visitor::input::Visitor;
-use crate::visitor::needs::Needs;
 use soffio_config::Config;
 
-/// Whoever stands before the kiosk.
-pub(crate) struct Visit {
+/// State of a visit.
+pub(crate) struct VisitState {
     pub visitor: Visitor,
     pub modifiers: ModifiersState,
-    pub needs: Needs,
+    pub accessibility: AccessibilitySettings,
     pub dwell: Dwell,
-    /// Has no visitor switched the microphone off?
-    pub listens: bool,
-    pub given: Given,
-    /// Does attract mode play?
+    /// Is the microphone on? A visitor can switch it off.
+    pub microphone_on: bool,
+    pub breath_time: BreathTime,
+    /// Is attract mode playing?
     attracts: bool,
-    /// Was somebody here at the last picture?
+    /// Was a visitor present at the last frame?
     visited: bool,
 }
 
-impl Visit {
-    /// Nobody has come yet; `given` is the breath of the day.
-    pub fn new(config: &Config, given: Given) -> Self {
+impl VisitState {
+    /// Nobody has come yet; `breath_time` is the breath of the day.
+    pub fn new(config: &Config, breath_time: BreathTime) -> Self {
         Self {
             visitor: Visitor::default(),
             modifiers: ModifiersState::default(),
-            needs: Needs::of(&config.visit),
+            accessibility: AccessibilitySettings::of(&config.visit),
             dwell: Dwell::default(),
-            listens: true,
-            given,
+            microphone_on: true,
+            breath_time,
             attracts: false,
             visited: false,
         }
     }
 
-    /// Tells the simulation what the visitor does; `menu`: the page is open.
-    pub fn tell(&mut self, inbox: &mut Inbox, config: &Config, menu: bool) {
+    /// Writes the visitor's input into the inbox of the simulation; `menu`: the page is open.
+    pub fn write_controls(&mut self, inbox: &mut Inbox, config: &Config, menu: bool) {
         self.visitor.lifts().into_iter().for_each(|lift| inbox.send(KioskCommand::Lift(lift)));
         let controls = &mut inbox.controls;
         controls.aim = self.visitor.aim();
@@ -50,28 +50,29 @@ impl Visit {
         controls.presses.clear();
         controls.presses.extend(self.visitor.presses());
         controls.keyed = self.visitor.keyed();
-        controls.press_once = self.needs.once() && !menu;
-        (controls.calm, controls.round) = (self.needs.calm, self.needs.round);
+        controls.press_once = self.accessibility.presses_once() && !menu;
+        (controls.reduced_motion, controls.look_around) =
+            (self.accessibility.reduced_motion, self.accessibility.look_around);
         controls.activity = self.visitor.activity();
-        controls.deaf = !self.listens;
+        controls.ignore_microphone = !self.microphone_on;
     }
 
-    /// Looks whether the visit is over: attract mode begins or, where the site has none, nobody is here any more.
+    /// Is the visit over? It ends when attract mode begins or, without attract mode, when nobody is present any more.
     pub fn ends(&mut self, attracts: bool, visited: bool, config: &Config) -> bool {
         let leaves = if config.attract.enabled { attracts && !self.attracts } else { self.visited && !visited };
         self.visited = visited;
         if attracts != self.attracts {
-            tracing::info!("{}", if attracts { "nobody is here: attract mode begins" } else { "somebody is here" });
+            tracing::info!("{}", if attracts { "attract mode begins" } else { "attract mode ends" });
         }
         self.attracts = attracts;
         leaves
     }
 
-    /// The visitor has left: the next one finds everything as it was first.
+    /// The visitor has left: everything is reset.
     pub fn leave(&mut self, config: &Config) {
         self.visitor.leave();
-        self.listens = true;
-        self.needs = Needs::of(&config.visit);
-        self.given.leave();
+        self.microphone_on = true;
+        self.accessibility = AccessibilitySettings::of(&config.visit);
+        self.breath_time.end_visit();
     }
 }

@@ -1,0 +1,322 @@
+//! Persisted state: counters, settings of staff, and how the last run ended. One small JSON file, replaced as a whole. It
+//! holds counts and settings, and nothing about a person.
+//!
+//! A run after a crash restores the exhibit on show, the mute and blank state, and the count of wrong PINs. Crashes within a
+//! minute of the start are counted; after [`MOST_DEATHS`] of them in a row the next run is in safe mode.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+
+use crate::fleet::visits::Histogram;
+use crate::fleet::writer::{Writer, write};
+use crate::step::breaths::BreathSource;
+use crate::venue::loudness::NightBy;
+use crate::venue::self_test::SelfTestHistory;
+use crate::visitor::breath_time::BreathTime;
+use soffio_config::Config;
+
+/// Age from which a crash does not count as one of the start.
+pub const SETTLED: Duration = Duration::from_secs(60);
+/// Crashes of the start in a row that lead to safe mode.
+pub const MOST_DEATHS: u32 = 3;
+/// Least time between two writes.
+const EVERY: Duration = Duration::from_secs(1);
+/// Names of the state file, and of the copy of the last valid configuration beside it.
+const FILE: &str = "state.json";
+const LAST_GOOD: &str = "last-good.toml";
+
+/// Phase of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RunPhase {
+    /// Ended in order, or never begun.
+    #[default]
+    Ended,
+    /// Running for less than [`SETTLED`].
+    Young,
+    /// Running for longer.
+    Settled,
+}
+
+/// The persisted state. Keys that an older file lacks have their defaults.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct PersistedState {
+    /// Phase of the run that wrote this.
+    pub life: RunPhase,
+    /// Crashes of the start in a row.
+    pub deaths: u32,
+    /// Runs so far.
+    pub starts: u64,
+    /// Id of the exhibit on show.
+    pub on_show: String,
+    /// Muted by staff?
+    pub muted: bool,
+    /// What decides whether it is night.
+    pub night_by: NightBy,
+    /// Blanked by a remote command?
+    pub blank: bool,
+    /// Wrong PINs in a row.
+    pub wrong_pins: i32,
+    /// Breath time of the day.
+    #[serde(rename = "given")]
+    pub breath_time: BreathTime,
+    /// Results of the audio self-test, and the state of the foam.
+    #[serde(rename = "care")]
+    pub self_test: SelfTestHistory,
+    /// Counters over all runs.
+    #[serde(rename = "tally")]
+    pub counters: Counters,
+}
+
+/// Counters over all runs.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Counters {
+    /// Visits that have ended.
+    pub visits: u64,
+    /// Histogram of their lengths, s.
+    pub dwell: Histogram,
+    /// Visits by the language that was shown last.
+    pub languages: BTreeMap<String, u64>,
+    /// Breaths by their source.
+    pub blows: BTreeMap<String, u64>,
+}
+
+impl Counters {
+    /// Breaths at the microphone.
+    pub fn breaths(&self) -> u64 {
+        self.blows.get(&BreathSource::Microphone.to_string()).copied().unwrap_or_default()
+    }
+}
+
+impl PersistedState {
+    /// Begins a run. Returns whether the one before it crashed.
+    pub fn begin(&mut self) -> bool {
+        let died = self.life != RunPhase::Ended;
+        self.deaths = if self.life == RunPhase::Young { self.deaths.saturating_add(1) } else { 0 };
+        self.life = RunPhase::Young;
+        self.starts += 1;
+        died
+    }
+
+    /// Did too many runs crash at their start?
+    pub fn wants_safe_mode(&self) -> bool {
+        self.deaths >= MOST_DEATHS
+    }
+}
+
+/// Folder of the persisted state: `staff.state`, else systemd's `$STATE_DIRECTORY`, else the user's own. `None` in a
+/// window on a desk, which has no visitors.
+pub fn folder(config: &Config) -> Option<PathBuf> {
+    if !config.staff.state.as_os_str().is_empty() {
+        return Some(config.staff.state.clone());
+    }
+    if !config.screen.fullscreen {
+        return None;
+    }
+    let variable = |name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    // systemd gives one folder for each name in the unit, with colons between them; ours has one.
+    variable("STATE_DIRECTORY")
+        .or_else(|| variable("XDG_STATE_HOME").map(|home| home.join("soffio")))
+        .or_else(|| variable("HOME").map(|home| home.join(".local/state/soffio")))
+}
+
+/// Reads and writes the persisted state.
+#[derive(Debug, Default)]
+pub struct StateStore {
+    folder: Option<PathBuf>,
+    writer: Option<Writer>,
+    written: Option<Instant>,
+    last: PersistedState,
+}
+
+impl StateStore {
+    /// Opens the folder, creates it if needed, and reads the state. An unreadable file is logged, and the state starts from
+    /// its defaults.
+    pub fn open(folder: Option<PathBuf>) -> (Self, PersistedState) {
+        let Some(folder) = folder else { return <(Self, PersistedState)>::default() };
+        if let Err(error) = make(&folder) {
+            tracing::warn!(
+                "no state is kept after this run: {} cannot be created: {error}; set staff.state to a writable folder",
+                folder.display()
+            );
+            return <(Self, PersistedState)>::default();
+        }
+        let file = folder.join(FILE);
+        let state = match std::fs::read(&file) {
+            Ok(bytes) => serde_json::from_slice(&bytes).unwrap_or_else(|error| {
+                tracing::warn!("{} is broken ({error}): all counters start at zero", file.display());
+                PersistedState::default()
+            }),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                tracing::info!("{} is new: all counters start at zero", file.display());
+                PersistedState::default()
+            }
+            Err(error) => {
+                tracing::warn!("{} cannot be read ({error}): all counters start at zero", file.display());
+                PersistedState::default()
+            }
+        };
+        (Self { writer: Some(Writer::start("state", file)), folder: Some(folder), ..Self::default() }, state)
+    }
+
+    /// Writes the begin of a run at once, before it can crash.
+    pub fn begin(&mut self, state: &PersistedState) {
+        let Some(folder) = &self.folder else { return };
+        match write(&folder.join(FILE), &text(state)) {
+            Ok(()) => self.last = state.clone(),
+            Err(error) => tracing::warn!("state: {error}. This start is not counted."),
+        }
+    }
+
+    /// Writes a changed state, once a second at most.
+    pub fn save_if_due(&mut self, now: Instant, state: &PersistedState) {
+        let due = self.written.is_none_or(|at| now.duration_since(at) >= EVERY);
+        let Some(writer) = self.writer.as_ref().filter(|_| due && *state != self.last) else { return };
+        if writer.write(text(state)) {
+            (self.written, self.last) = (Some(now), state.clone());
+        }
+    }
+
+    /// Writes that the run ended in order.
+    pub fn end(&mut self, mut state: PersistedState) {
+        (state.life, state.deaths) = (RunPhase::Ended, 0);
+        if let Some(writer) = self.writer.take() {
+            writer.finish(text(&state));
+        }
+    }
+
+    /// Copies a valid configuration, for a start at which the file itself is broken.
+    pub fn save_good_config(&self, file: &Path) {
+        let Some(folder) = &self.folder else { return };
+        let copied = std::fs::read_to_string(file).and_then(|text| write(&folder.join(LAST_GOOD), &text));
+        if let Err(error) = copied {
+            tracing::warn!("the valid configuration cannot be copied: {error}");
+        }
+    }
+}
+
+/// The last valid configuration, for a kiosk whose `file` is broken when it starts; `None` where there is no copy. The
+/// folder is read from the broken file if possible.
+pub fn last_good(file: &Path) -> Option<Config> {
+    let named = std::fs::read_to_string(file).ok().and_then(|text| state_named_in(&text));
+    let folders = [named, folder(&Config::default())].into_iter().flatten();
+    let mut good = folders.filter_map(|folder| Config::load(Some(&folder.join(LAST_GOOD))).ok());
+    good.next().map(|loaded| loaded.config)
+}
+
+/// `state` of `[staff]`, from a text in which another line may be broken.
+fn state_named_in(text: &str) -> Option<PathBuf> {
+    let staff = text.lines().map(str::trim).skip_while(|line| !line.starts_with("[staff]")).skip(1);
+    let mut within = staff.take_while(|line| !line.starts_with('['));
+    let line: toml::Table =
+        within.find(|line| line.split('=').next().is_some_and(|key| key.trim() == "state"))?.parse().ok()?;
+    line.get("state")?.as_str().filter(|folder| !folder.is_empty()).map(PathBuf::from)
+}
+
+/// The state in a folder, without opening it for writing.
+pub fn read(folder: &Path) -> Option<PersistedState> {
+    serde_json::from_slice(&std::fs::read(folder.join(FILE)).ok()?).ok()
+}
+
+fn text(state: &PersistedState) -> String {
+    // Maps with text keys and numbers always have a JSON form.
+    serde_json::to_string_pretty(state).unwrap_or_default()
+}
+
+/// Creates a folder that only its owner can read: a configuration may hold a password.
+fn make(folder: &Path) -> std::io::Result<()> {
+    let mut builder = std::fs::DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_broken_configuration_still_says_where_its_last_good_copy_is() {
+        let broken =
+            "[visit]\nbreth = tru\n[[[\n[staff]\npin = \n  state = \"/srv/kiosk 2\"  # ours\n[mqtt]\nstate = \"no\"\n";
+        assert_eq!(state_named_in(broken), Some("/srv/kiosk 2".into()));
+        assert_eq!(state_named_in("state = \"/elsewhere\"\n[staff]\nstate = \"\"\n"), None);
+        assert_eq!(state_named_in("[staff]\nstate = [\n"), None);
+    }
+
+    #[test]
+    fn the_last_good_copy_lies_in_the_folder_that_the_broken_file_names() {
+        let home = tempfile::tempdir().expect("a folder");
+        let (file, state) = (home.path().join("kiosk.toml"), home.path().join("state"));
+        let site = |more: &str| format!("[staff]\nstate = {:?}\n{more}", state.to_string_lossy());
+        std::fs::write(&file, site("[visit]\nbreath = false\n")).expect("written");
+        StateStore::open(Some(state.clone())).0.save_good_config(&file);
+        std::fs::write(&file, site("[visit]\nbreath = fals\n")).expect("written");
+        assert!(Config::load(Some(&file)).is_err(), "it is broken");
+        assert!(!last_good(&file).expect("the copy").visit.breath);
+    }
+
+    #[test]
+    fn three_deaths_in_the_first_minute_ask_for_safe_mode_and_a_life_or_an_orderly_end_forgets_them() {
+        let mut state = PersistedState::default();
+        assert!(!state.begin(), "the first run follows nobody");
+        for death in 1..=MOST_DEATHS {
+            assert!(state.begin());
+            assert_eq!((state.deaths, state.wants_safe_mode()), (death, death >= MOST_DEATHS));
+        }
+        state.life = RunPhase::Settled;
+        assert!(state.begin() && state.deaths == 0, "a long life was no death of its start");
+        state.begin();
+        state.life = RunPhase::Ended;
+        assert!(!state.begin() && state.deaths == 0 && state.starts == 7);
+    }
+
+    #[test]
+    fn what_is_kept_comes_back_and_what_is_broken_begins_anew() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("in/state");
+        let (mut store, mut state) = StateStore::open(Some(path.clone()));
+        assert_eq!(state, PersistedState::default());
+        state.begin();
+        store.begin(&state);
+        assert_eq!(StateStore::open(Some(path.clone())).1.life, RunPhase::Young, "at once");
+        state.on_show = "clock".into();
+        state.counters.blows.insert("hold".into(), 7);
+        state.breath_time.add("clock", jiff::civil::Date::constant(2026, 1, 5), 12.5);
+        let now = Instant::now();
+        store.save_if_due(now, &state);
+        state.wrong_pins = 3;
+        store.save_if_due(now, &state);
+        store.end(state.clone());
+        let (_, read) = StateStore::open(Some(path.clone()));
+        let breath_time = read.breath_time.of("clock");
+        assert_eq!(
+            (read.life, read.wrong_pins, breath_time),
+            (RunPhase::Ended, 3, [0.0, 12.5]),
+            "the visit itself is over"
+        );
+        assert_eq!(read.counters, state.counters);
+
+        // An older file knows less; a torn one nothing.
+        std::fs::write(path.join(FILE), r#"{"starts": 5}"#).expect("writable");
+        assert_eq!(StateStore::open(Some(path.clone())).1, PersistedState { starts: 5, ..PersistedState::default() });
+        std::fs::write(path.join(FILE), r#"{"starts": 5, "de"#).expect("writable");
+        assert_eq!(StateStore::open(Some(path)).1, PersistedState::default());
+    }
+
+    #[test]
+    fn where_the_folder_cannot_be_made_the_kiosk_goes_on() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let taken = folder.path().join("taken");
+        std::fs::write(&taken, "").expect("writable");
+        let (mut store, state) = StateStore::open(Some(taken.join("state")));
+        store.save_if_due(Instant::now(), &PersistedState { starts: 1, ..state });
+        assert!(store.writer.is_none());
+    }
+}

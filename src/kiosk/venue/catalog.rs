@@ -1,0 +1,324 @@
+//! The catalog: the exhibits that a visitor can choose from. It follows changes that curators make while the kiosk runs.
+//!
+//! One worker thread loads. At the start it loads every exhibit once, in order: valid ones are listed with their labels and
+//! picture, others are reported and left out. Folders are watched. 300 ms after the last change (editors write in several
+//! steps) the worker loads the folder again. So a new folder appears, a removed one disappears, and saved changes are shown.
+//! The exhibit on show is replaced only by one that has loaded; else the last valid one stays.
+
+use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::time::Duration;
+
+use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode};
+use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
+
+use soffio_config::OTHERS;
+use soffio_exhibit::{self as exhibit, Exhibit, Labels};
+
+/// Quiet time after the last change before an exhibit is loaded.
+pub const QUIET: Duration = Duration::from_millis(300);
+/// File name of an exhibit's picture, in its folder.
+pub const THUMBNAIL: &str = "thumbnail.png";
+/// Size of the stored picture, pixels: a tile is no larger on the screen.
+const THUMBNAIL_SIZE: (u32, u32) = (480, 270);
+
+/// Where the exhibits come from.
+#[derive(Clone, Debug)]
+pub enum ExhibitSource {
+    /// One exhibit in this folder.
+    One(PathBuf),
+    /// The exhibits in the folders of a folder.
+    All {
+        /// The folder.
+        folder: PathBuf,
+        /// Ids in the order in which they are offered; [`OTHERS`] stands for all others.
+        show: Vec<String>,
+    },
+}
+
+/// An exhibit in the catalog.
+#[derive(Clone, Debug)]
+pub struct CatalogEntry {
+    /// Name of its folder.
+    pub id: String,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// Its labels.
+    pub labels: Labels,
+    /// Its picture.
+    pub thumbnail: Option<image::RgbaImage>,
+}
+
+/// Event of the worker.
+pub enum CatalogEvent {
+    /// Show this exhibit: it was requested, or is on show and has changed.
+    Show(Arc<Exhibit>),
+    /// The requested exhibit does not load; the report.
+    Failed(String),
+    /// A new or changed entry.
+    Listed(Box<CatalogEntry>),
+    /// An exhibit does not load: its id, and the report.
+    Rejected(String, String),
+    /// The folder of this exhibit was removed.
+    Removed(String),
+}
+
+enum CatalogRequest {
+    Show(PathBuf),
+    Load(PathBuf),
+}
+
+/// Loads exhibits on a worker thread, and watches their folders for as long as it lives.
+pub struct CatalogLoader {
+    events: Receiver<CatalogEvent>,
+    requests: Sender<CatalogRequest>,
+    /// Ends the watching when dropped.
+    _watcher: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
+}
+
+impl CatalogLoader {
+    /// Loads the exhibits there, and reloads changed ones if `watched`; `shown` is the folder on show. Where watching is
+    /// impossible the reason is logged, and requests still work.
+    pub fn new(places: &ExhibitSource, shown: &Path, watched: bool) -> Self {
+        let (requests, incoming) = channel::<CatalogRequest>();
+        let (sender, events) = channel();
+        let mut worker = Worker {
+            events: sender,
+            queue: folders(places).into_iter().map(|folder| (folder, false)).collect(),
+            shown: shown.to_path_buf(),
+        };
+        let thread = std::thread::Builder::new().name("soffio-exhibits".into()).spawn(move || worker.run(&incoming));
+        if let Err(error) = thread {
+            tracing::error!("no other exhibit can be loaded: {error}");
+        }
+        let (watch, one) = match places {
+            ExhibitSource::One(folder) => (folder, true),
+            ExhibitSource::All { folder, .. } => (folder, false),
+        };
+        let watcher = watched.then(|| watcher(watch, one, requests.clone()));
+        if let Some(Err(error)) = &watcher {
+            tracing::warn!("{} is not watched for changes: {error}", watch.display());
+        }
+        Self { events, requests, _watcher: watcher.and_then(Result::ok) }
+    }
+
+    /// Requests the exhibit of a folder: [`CatalogEvent::Show`] or [`CatalogEvent::Failed`] follows.
+    pub fn show(&self, folder: &Path) {
+        // The worker lives as long as this value does; if it died, the picture stays as it is.
+        let _ = self.requests.send(CatalogRequest::Show(folder.to_path_buf()));
+    }
+
+    /// Loads a folder that was not offered before: [`CatalogEvent::Listed`] or [`CatalogEvent::Rejected`] follows.
+    pub fn load(&self, folder: &Path) {
+        let _ = self.requests.send(CatalogRequest::Load(folder.to_path_buf()));
+    }
+
+    /// The next event, the oldest first; `None` where there is none.
+    pub fn next_event(&self) -> Option<CatalogEvent> {
+        self.events.try_recv().ok()
+    }
+
+    /// Waits for the next event, at most so long.
+    pub fn wait(&self, longest: Duration) -> Option<CatalogEvent> {
+        self.events.recv_timeout(longest).ok()
+    }
+}
+
+/// State of the worker thread.
+struct Worker {
+    events: Sender<CatalogEvent>,
+    /// Folders to load, and whether they have changed.
+    queue: VecDeque<(PathBuf, bool)>,
+    shown: PathBuf,
+}
+
+impl Worker {
+    /// Runs until all senders or the receiver are dropped.
+    fn run(&mut self, requests: &Receiver<CatalogRequest>) {
+        loop {
+            let request = match requests.try_recv() {
+                Err(TryRecvError::Empty) if self.queue.is_empty() => match requests.recv() {
+                    Ok(request) => Some(request),
+                    Err(_) => return,
+                },
+                Err(TryRecvError::Disconnected) => return,
+                Err(TryRecvError::Empty) => None,
+                Ok(request) => Some(request),
+            };
+            let sent = match request {
+                Some(CatalogRequest::Show(folder)) => self.show(folder),
+                // Several changes during a load count as one.
+                Some(CatalogRequest::Load(folder)) => {
+                    self.queue.retain(|(other, _)| *other != folder);
+                    self.queue.push_front((folder, true));
+                    Ok(())
+                }
+                None => self.queue.pop_front().map_or(Ok(()), |(folder, changed)| self.look(&folder, changed)),
+            };
+            if sent.is_err() {
+                return;
+            }
+        }
+    }
+
+    fn show(&mut self, folder: PathBuf) -> Result<(), ()> {
+        let events = match exhibit::load(&folder) {
+            Ok(exhibit) => {
+                self.shown = folder;
+                CatalogEvent::Show(Arc::new(exhibit))
+            }
+            Err(report) => CatalogEvent::Failed(report.to_string()),
+        };
+        self.events.send(events).map_err(drop)
+    }
+
+    fn look(&mut self, folder: &Path, changed: bool) -> Result<(), ()> {
+        let id = id(folder);
+        if !is_exhibit(folder) {
+            return self.events.send(CatalogEvent::Removed(id)).map_err(drop);
+        }
+        let events = match exhibit::load(folder) {
+            Ok(exhibit) => {
+                let entry = CatalogEntry {
+                    id,
+                    folder: folder.to_path_buf(),
+                    labels: exhibit.labels.clone(),
+                    thumbnail: thumbnail(folder),
+                };
+                if changed && folder == self.shown {
+                    self.events.send(CatalogEvent::Show(Arc::new(exhibit))).map_err(drop)?;
+                }
+                CatalogEvent::Listed(Box::new(entry))
+            }
+            Err(report) => CatalogEvent::Rejected(id, report.to_string()),
+        };
+        self.events.send(events).map_err(drop)
+    }
+}
+
+/// The exhibits that a visitor can choose from, as far as they have loaded, in order.
+#[derive(Debug, Default)]
+pub struct Catalog {
+    show: Vec<String>,
+    entries: Vec<CatalogEntry>,
+}
+
+impl Catalog {
+    /// An empty catalog for the ids of this source, in its order.
+    pub fn new(places: &ExhibitSource) -> Self {
+        let show = match places {
+            ExhibitSource::One(folder) => vec![id(folder)],
+            ExhibitSource::All { show, .. } => show.clone(),
+        };
+        Self { show, entries: Vec::new() }
+    }
+
+    /// The entries in order.
+    pub fn entries(&self) -> &[CatalogEntry] {
+        &self.entries
+    }
+
+    /// Inserts an entry, or replaces its older version; one that is not offered is left out.
+    pub fn insert(&mut self, entry: CatalogEntry) {
+        self.remove(&entry.id);
+        if let Some(rank) = self.rank(&entry.id) {
+            let key = |other: &CatalogEntry| (self.rank(&other.id), other.id.clone());
+            let at = self.entries.partition_point(|other| key(other) < (Some(rank), entry.id.clone()));
+            self.entries.insert(at, entry);
+        }
+    }
+
+    /// Offers these ids in this order. Newly offered ones must be inserted.
+    pub fn reorder(&mut self, show: &[String]) {
+        self.show = show.to_vec();
+        let entries = std::mem::take(&mut self.entries);
+        entries.into_iter().for_each(|entry| self.insert(entry));
+    }
+
+    /// Removes an entry.
+    pub fn remove(&mut self, id: &str) {
+        self.entries.retain(|entry| entry.id != id);
+    }
+
+    /// The entry `by` places after the one with this id, cyclically; `None` where there is no other.
+    pub fn neighbour(&self, id: &str, by: isize) -> Option<&CatalogEntry> {
+        let at = self.entries.iter().position(|entry| entry.id == id);
+        let count = self.entries.len() as isize;
+        let next = match at {
+            Some(at) => (at as isize + by).rem_euclid(count.max(1)),
+            None => 0,
+        };
+        self.entries.get(next as usize).filter(|entry| entry.id != id)
+    }
+
+    fn rank(&self, id: &str) -> Option<usize> {
+        let of = |name: &str| self.show.iter().position(|other| other == name);
+        of(id).or_else(|| of(OTHERS))
+    }
+}
+
+/// The folders of the offered exhibits, in order.
+pub fn folders(places: &ExhibitSource) -> Vec<PathBuf> {
+    let ExhibitSource::All { folder, show } = places else {
+        let ExhibitSource::One(folder) = places else { return Vec::new() };
+        return vec![folder.clone()];
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut all: Vec<PathBuf> = entries.filter(|path| is_exhibit(path)).collect();
+    let offer = Catalog { show: show.clone(), entries: Vec::new() };
+    all.retain(|path| offer.rank(&id(path)).is_some());
+    all.sort_by_key(|path| (offer.rank(&id(path)), id(path)));
+    all
+}
+
+/// Does this kind of event change what an exhibit is? (Reading it does not.)
+pub fn is_change(kind: &EventKind) -> bool {
+    matches!(kind, EventKind::Create(_) | EventKind::Modify(_) | EventKind::Remove(_) | EventKind::Any)
+}
+
+/// Is this the folder of an exhibit? Hidden folders are not: they may be incomplete.
+fn is_exhibit(folder: &Path) -> bool {
+    !id(folder).starts_with('.') && folder.join(exhibit::SIDECAR).is_file()
+}
+
+/// The id of an exhibit: the name of its folder.
+pub fn id(folder: &Path) -> String {
+    folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The exhibit's picture, scaled down; `None` where it is missing or unreadable.
+fn thumbnail(folder: &Path) -> Option<image::RgbaImage> {
+    let picture = image::open(folder.join(THUMBNAIL)).ok()?;
+    let (width, height) = THUMBNAIL_SIZE;
+    Some(picture.resize_to_fill(width, height, image::imageops::FilterType::Triangle).to_rgba8())
+}
+
+fn watcher(
+    folder: &Path,
+    one: bool,
+    requests: Sender<CatalogRequest>,
+) -> Result<Debouncer<RecommendedWatcher, RecommendedCache>, notify_debouncer_full::notify::Error> {
+    // The system reports absolute paths; requests use the path as it was given.
+    let (real, given) = (folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf()), folder.to_path_buf());
+    let whose = move |path: &PathBuf| match one {
+        true => Some(given.clone()),
+        false => {
+            let inside = path.strip_prefix(&real).or_else(|_| path.strip_prefix(&given)).ok()?;
+            Some(given.join(inside.components().next()?))
+        }
+    };
+    let mut debouncer = new_debouncer(QUIET, None, move |result: DebounceEventResult| match result {
+        Ok(events) => {
+            let changes = events.iter().filter(|event| is_change(&event.kind));
+            let mut folders: Vec<PathBuf> = changes.flat_map(|event| event.paths.iter().filter_map(&whose)).collect();
+            folders.sort();
+            folders.dedup();
+            folders.into_iter().for_each(|folder| drop(requests.send(CatalogRequest::Load(folder))));
+        }
+        Err(errors) => errors.iter().for_each(|error| tracing::warn!("watching the exhibits: {error}")),
+    })?;
+    debouncer.watch(folder, RecursiveMode::Recursive)?;
+    Ok(debouncer)
+}
