@@ -113,7 +113,7 @@ fn nodes_below_a_body_play_the_animation_that_the_body_follows() {
     let exhibit = exhibit::load(Folder::exhibit(&scene.glb(), text).path())
         .unwrap_or_else(|report| panic!("{}", report.to_text()));
     let [track] = exhibit.shapes.as_slice() else { panic!("one track: {:?}", exhibit.shapes) };
-    assert_eq!((track.repeat, track.span), (false, (0.0, 1.0)));
+    assert_eq!((track.repeat, track.first_key, track.last_key), (false, 0.0, 1.0));
     assert_eq!((weights(track, 0.25), weights(track, 5.0)), ([0.25; 2], [1.0; 2]));
     assert!(track.is_changing(0.5) && !track.is_changing(1.5));
 }

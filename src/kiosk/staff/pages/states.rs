@@ -35,10 +35,10 @@ pub(crate) fn reason(reason: Reason) -> TextId {
         Reason::Voiced => TextId::StaffReasonVoiced,
         Reason::MidBand => TextId::StaffReasonMidBand,
         Reason::Impulse => TextId::StaffReasonImpulse,
-        Reason::Waiting => TextId::StaffReasonPending,
+        Reason::Pending => TextId::StaffReasonPending,
         Reason::Blow => TextId::StaffReasonBlow,
-        Reason::Latched => TextId::StaffReasonTimedOut,
-        Reason::OwnVoice => TextId::StaffReasonMasked,
+        Reason::TimedOut => TextId::StaffReasonTimedOut,
+        Reason::LoudspeakerEcho => TextId::StaffReasonMasked,
         Reason::Fault => TextId::StaffReasonFault,
     }
 }
