@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::failure::{Failure, Outcome};
 use soffio_exhibit::diagnostic::{quoted, similar_names};
 use soffio_exhibit::{self as exhibit, Exhibit, Origin};
-use soffio_multibody::collision::{Collider, Reason};
+use soffio_multibody::collision::{Collider, PairExclusion};
 
 /// Prints each value of an exhibit with its origin.
 ///
@@ -86,7 +86,7 @@ fn pair_lines(out: &mut String, exhibit: &Exhibit, chosen: impl Fn(&Collider) ->
     let mut left_out: Vec<(String, usize)> = Vec::new();
     for (pair, reason) in &pairs.left_out {
         let (a, b) = colliders(pair.a, pair.b);
-        if !of((a, b)) || matches!(reason, Reason::SameBody | Reason::BothStill) {
+        if !of((a, b)) || matches!(reason, PairExclusion::SameBody | PairExclusion::BothStill) {
             continue;
         }
         let line = format!("{} – {}: {reason}", a.node, b.node);

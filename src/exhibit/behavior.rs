@@ -1,7 +1,7 @@
 //! How an exhibit moves, responds to breath and touch, and sounds.
 
 use soffio_math::DVec3;
-use soffio_multibody::procedural::Method;
+use soffio_multibody::procedural::PositionSolver;
 use soffio_wind::breath::SpreadLaw;
 
 /// How the motion of an exhibit is computed.
@@ -15,7 +15,7 @@ pub enum Motion {
     /// Always constrained dynamics.
     Dynamics,
     /// Always position-based motion.
-    PositionBased(Method),
+    PositionBased(PositionSolver),
 }
 
 /// What visitors may do to an exhibit by touch or mouse.

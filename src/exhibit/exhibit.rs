@@ -12,7 +12,7 @@ use super::presentation::{Attract, Credit, Labels};
 use super::shape_tracks;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
-use soffio_multibody::collision::{Collider, Exclusion, Pair};
+use soffio_multibody::collision::{Collider, ColliderPair, Exclusion};
 use soffio_multibody::dynamics::{Integrator, KinematicBody, RollingResistance, Solver, SurfacePair};
 use soffio_sound::InstrumentSpec;
 use soffio_wind::ambient::Wind;
@@ -110,7 +110,7 @@ impl Exhibit {
 
     /// Contact properties of two colliders. Restitution and sliding friction are those of the material pair, or the
     /// geometric mean of both materials. Resistances are those of the pair, or the sum of both.
-    pub fn surface_pair(&self, pair: Pair) -> SurfacePair {
+    pub fn surface_pair(&self, pair: ColliderPair) -> SurfacePair {
         let [a, b] = [pair.a, pair.b].map(|collider| self.colliders[collider].material);
         let (x, y) = (&self.materials[a], &self.materials[b]);
         let own = self.material_pairs.iter().find(|p| p.pair == (a, b) || p.pair == (b, a));

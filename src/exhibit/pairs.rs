@@ -5,15 +5,15 @@ use super::exhibit::Exhibit;
 use soffio_math::Function;
 use soffio_math::{DVec3, Pose};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
-use soffio_multibody::collision::reach::{FixedAxis, JointEnd, JointPoint};
-use soffio_multibody::collision::{Pairs, Reach, pairs};
+use soffio_multibody::collision::reachable_volume::{FixedAxis, JointEnd, JointPoint};
+use soffio_multibody::collision::{ColliderPairs, ReachableVolumes, pairs};
 
 /// Directions whose angle has a smaller sine count as parallel.
 const SAME: f64 = 1e-9;
 
 impl Exhibit {
-    /// Pairs of colliders that can touch, and the other pairs with the reasons why they cannot.
-    pub fn collider_pairs(&self) -> Pairs {
+    /// ColliderPairs of colliders that can touch, and the other pairs with the reasons why they cannot.
+    pub fn collider_pairs(&self) -> ColliderPairs {
         let is_kinematic = |body: Option<usize>| self.drives.iter().any(|drive| Some(drive.body) == body);
         // A constraint that is scheduled or can break limits nothing for good.
         let holds = |c: &&Constraint| c.schedule.is_always() && c.breaking.is_none();
@@ -30,7 +30,7 @@ impl Exhibit {
             .collect();
         let poses: Vec<Pose> = self.bodies.iter().map(|body| body.pose).collect();
         let axes: Vec<FixedAxis> = (0..self.bodies.len()).filter_map(|body| self.fixed_axis(body, &joints)).collect();
-        pairs(&self.colliders, &self.excluded_pairs, &Reach::new(&self.colliders, &poses, &joints, &axes))
+        pairs(&self.colliders, &self.excluded_pairs, &ReachableVolumes::new(&self.colliders, &poses, &joints, &axes))
     }
 
     /// The only axis about which a body can rotate: through a nail, along the direction that two orientations hold.

@@ -250,15 +250,15 @@ mod tests {
         let hull = Hull::new(&corners);
         let inset = hull.inset(BALL);
         assert_eq!((hull.corners().len(), inset.len()), (8, 8));
-        let reach = |points: &[DVec3], d: DVec3| points.iter().map(|p| p.dot(d)).fold(f64::NEG_INFINITY, f64::max);
+        let extent = |points: &[DVec3], d: DVec3| points.iter().map(|p| p.dot(d)).fold(f64::NEG_INFINITY, f64::max);
         for normal in hull.normals() {
-            let (own, whole) = (reach(&corners, normal), reach(&inset, normal) + BALL);
+            let (own, whole) = (extent(&corners, normal), extent(&inset, normal) + BALL);
             assert!((own - whole).abs() < FACES, "{normal}: {whole} instead of {own}");
         }
         assert_eq!(hull.normals().count(), 6);
         // Where floor and slope n meet, the corner goes back by (1 + n_y)/n_x balls, and the ball comes forward by one.
         let slope = DVec3::new(0.003, 0.005, 0.0).normalize();
         let tip = 0.02 - BALL * ((1.0 + slope.y) / slope.x - 1.0);
-        assert!((reach(&inset, DVec3::X) + BALL - tip).abs() < FACES, "{} instead of {tip}", reach(&inset, DVec3::X));
+        assert!((extent(&inset, DVec3::X) + BALL - tip).abs() < FACES, "{} instead of {tip}", extent(&inset, DVec3::X));
     }
 }

@@ -178,7 +178,7 @@ impl Occluders {
         }));
     }
 
-    /// From where to where the triangles that a body carries reach along a direction (unit, the body's frame), m from its
+    /// From where to where the triangles that a body carries ray_length along a direction (unit, the body's frame), m from its
     /// frame's origin.
     pub fn extent(&self, body: usize, along: DVec3) -> (f64, f64) {
         let parts = self.parts.iter().filter(|part| part.body == Some(body));
@@ -268,22 +268,22 @@ impl Occluders {
         // Nothing is farther off than the farthest corner of all.
         let from = single(origin);
         let around = self.boxes.around();
-        let reach = (around.low - from).abs().max((around.high - from).abs()).length();
+        let ray_length = (around.low - from).abs().max((around.high - from).abs()).length();
         let mut first: (Option<usize>, f32) = (None, f32::INFINITY);
-        self.boxes.meet(&Beam::new(from, reach * single(direction), Vec3A::ZERO), |node, met| {
+        self.boxes.meet(&Beam::new(from, ray_length * single(direction), Vec3A::ZERO), |node, met| {
             for part in places(met).map(|place| &self.parts[node.index(place)]) {
                 let (origin, direction) = part.local(origin, direction);
-                part.boxes.meet(&Beam::new(origin, reach * direction, Vec3A::ZERO), |node, met| {
+                part.boxes.meet(&Beam::new(origin, ray_length * direction, Vec3A::ZERO), |node, met| {
                     for triangle in places(met).map(|place| &part.triangles[node.index(place)]) {
                         let t = triangle.meets(origin, direction, f32::INFINITY);
                         if t < first.1 {
                             first = (part.body, t);
                         }
                     }
-                    (first.1 / reach).min(1.0)
+                    (first.1 / ray_length).min(1.0)
                 });
             }
-            (first.1 / reach).min(1.0)
+            (first.1 / ray_length).min(1.0)
         });
         first.1.is_finite().then(|| (first.0, f64::from(first.1)))
     }

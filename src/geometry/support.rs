@@ -43,7 +43,7 @@ pub enum Core {
 impl Core {
     /// Farthest distance of its points from a point of its frame, m; infinite for the half-space.
     #[inline]
-    pub fn reach(&self, from: DVec3) -> f64 {
+    pub fn bounding_radius(&self, from: DVec3) -> f64 {
         match self {
             Self::Point => from.length(),
             Self::Segment { half } => DVec3::new(from.x, from.y.abs() + half, from.z).length(),

@@ -173,7 +173,7 @@ where
 
 /// The way from 0 to 1 in `h` seconds, `since` s after its start; a spline is not one way but knows its neighbours.
 #[inline]
-pub fn ease(interpolation: Interpolation, h: f64, since: f64) -> Jet3 {
+pub fn easing(interpolation: Interpolation, h: f64, since: f64) -> Jet3 {
     let s = since / h;
     match interpolation {
         Interpolation::Step => Jet3::default(),
@@ -209,7 +209,7 @@ fn between(keys: &[(f64, f64)], interpolation: Interpolation, repeat: bool, t: f
         let (value, rate, acceleration) = quintic((a, v, c), (b, w, d), t1 - t0, since);
         return Jet3 { value, rate, acceleration };
     }
-    let share = ease(interpolation, t1 - t0, since);
+    let share = easing(interpolation, t1 - t0, since);
     Jet3 { value: a + (b - a) * share.value, rate: (b - a) * share.rate, acceleration: (b - a) * share.acceleration }
 }
 

@@ -89,7 +89,7 @@ impl Assembly {
         scatter(&mut bodies, &is_kinematic, seed);
         let acts = |constraint: &&Constraint| {
             let gear = matches!(constraint.kind, ConstraintKind::Coupling { .. });
-            !gear && constraint.schedule.share(0.0, None) > 0.0
+            !gear && constraint.schedule.activation(0.0, None) > 0.0
         };
         let permanent = |constraint: &Constraint| Constraint {
             schedule: Schedule::default(),

@@ -62,7 +62,7 @@ impl EventSource {
             let (on, against) = measure.bodies();
             let point = match measure {
                 Measure::Angle { .. } => center(on),
-                Measure::Way { point, .. } => at(point),
+                Measure::Displacement { point, .. } => at(point),
             };
             ([on, against], point)
         };

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::pointer_grabs::PointerGrab;
 use soffio_exhibit::{Exhibit, Motion};
-use soffio_multibody::procedural::Method;
+use soffio_multibody::procedural::PositionSolver;
 
 /// Breath profile: how a breath becomes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -175,8 +175,8 @@ impl MotionMode {
     pub fn of(exhibit: &Exhibit) -> Self {
         match exhibit.motion {
             Motion::Dynamics | Motion::Auto { .. } => Self::Dynamic,
-            Motion::PositionBased(Method::Compulsive) => Self::Procedural,
-            Motion::PositionBased(Method::TreeSolve) => Self::PositionBased,
+            Motion::PositionBased(PositionSolver::Relaxation) => Self::Procedural,
+            Motion::PositionBased(PositionSolver::TreeSolve) => Self::PositionBased,
         }
     }
 

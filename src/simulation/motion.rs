@@ -12,7 +12,7 @@ use super::start::{start_clock_setting, start_dynamics};
 use soffio_exhibit::Exhibit;
 use soffio_math::spatial::Vec6;
 use soffio_multibody::dynamics::{Dynamics, Impact};
-use soffio_multibody::procedural::{self, Method, Procedural};
+use soffio_multibody::procedural::{self, PositionSolver, Procedural};
 use soffio_wind::force::WindField;
 
 /// An assembly animation in progress.
@@ -112,7 +112,7 @@ impl Motion {
             aspect: camera.aspect,
             exhibit,
             bodies: &self.dynamics.bodies,
-            is_kinematic: self.dynamics.system().driven(),
+            is_kinematic: self.dynamics.system().kinematic(),
         };
         self.pointer_grabs.update(input.pointer_grabs, wind, &scene);
         self.mode = input.mode.unwrap_or(MotionMode::of(exhibit));
@@ -133,8 +133,8 @@ impl Motion {
                 self.set_clock(exhibit, elapsed);
                 return self.dynamics.step(DT, &self.wrenches, &mut self.impacts);
             }
-            MotionMode::Procedural => Method::Compulsive,
-            MotionMode::PositionBased => Method::TreeSolve,
+            MotionMode::Procedural => PositionSolver::Relaxation,
+            MotionMode::PositionBased => PositionSolver::TreeSolve,
         };
         self.procedural.settings_mut().method = method;
         let targets = self.pointer_grabs.position_targets(&self.dynamics.bodies, DT);

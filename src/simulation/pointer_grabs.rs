@@ -30,7 +30,7 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_wrench};
 use soffio_math::{DMat3, DVec3};
 use soffio_multibody::dynamics::Dynamics;
-use soffio_multibody::procedural::{Grip, MOST_GRIPS};
+use soffio_multibody::procedural::{GrabTarget, MAX_GRABS};
 use soffio_wind::force::WindField;
 
 /// A pointer or finger that is down on the sculpture.
@@ -101,10 +101,10 @@ pub struct PickScene<'a> {
 #[derive(Clone, Debug)]
 pub struct PointerGrabs {
     grabs: Vec<Grab>,
-    targets: Vec<Grip>,
+    targets: Vec<GrabTarget>,
     points: Vec<(usize, DVec3)>,
     /// W, blocks of one grab on another, row by row.
-    inverse_mass: [DMat3; MOST_GRIPS * MOST_GRIPS],
+    inverse_mass: [DMat3; MAX_GRABS * MAX_GRABS],
     /// F_max, N.
     force: f64,
     permitted: bool,
@@ -114,10 +114,10 @@ impl PointerGrabs {
     /// No grabs.
     pub fn new(exhibit: &Exhibit) -> Self {
         Self {
-            grabs: Vec::with_capacity(MOST_GRIPS),
-            targets: Vec::with_capacity(MOST_GRIPS),
-            points: Vec::with_capacity(MOST_GRIPS),
-            inverse_mass: [DMat3::ZERO; MOST_GRIPS * MOST_GRIPS],
+            grabs: Vec::with_capacity(MAX_GRABS),
+            targets: Vec::with_capacity(MAX_GRABS),
+            points: Vec::with_capacity(MAX_GRABS),
+            inverse_mass: [DMat3::ZERO; MAX_GRABS * MAX_GRABS],
             force: exhibit.touch.force,
             permitted: exhibit.touch.permitted,
         }
@@ -145,7 +145,7 @@ impl PointerGrabs {
         self.permitted && pick(at, wind, scene).is_some_and(|(body, _)| !scene.is_kinematic[body])
     }
 
-    /// Grabs, drags and releases, as the first [`MOST_GRIPS`] of `pointers` say.
+    /// Grabs, drags and releases, as the first [`MAX_GRABS`] of `pointers` say.
     pub fn update(&mut self, pointers: &[PointerGrab], wind: &mut WindField, scene: &PickScene) {
         let PickScene { view, aspect, bodies, is_kinematic, .. } = *scene;
         self.grabs.retain(|grab| pointers.iter().any(|pointer| pointer.id == grab.id));
@@ -154,7 +154,7 @@ impl PointerGrabs {
         }
         for pointer in pointers.iter().filter(|pointer| pointer.at.iter().all(|x| x.is_finite())) {
             let known = self.grabs.iter().position(|grab| grab.id == pointer.id);
-            if known.is_none() && self.grabs.len() < MOST_GRIPS {
+            if known.is_none() && self.grabs.len() < MAX_GRABS {
                 let picked = match pointer.body {
                     Some(body) => bodies.get(body).map(|b| (body, b.position)),
                     None => pick(pointer.at, wind, scene),
@@ -178,12 +178,12 @@ impl PointerGrabs {
     }
 
     /// Target positions of the points after `dt` seconds, for position-based motion.
-    pub fn position_targets(&mut self, bodies: &[RigidBody], dt: f64) -> &[Grip] {
+    pub fn position_targets(&mut self, bodies: &[RigidBody], dt: f64) -> &[GrabTarget] {
         self.targets.clear();
         for grab in &self.grabs {
             if let Some(GrabbedPoint { body, point }) = grab.grabbed {
                 let now = bodies[body].pose().point(point);
-                self.targets.push(Grip { body, point, place: now + dt * Self::desired_velocity(grab, now) });
+                self.targets.push(GrabTarget { body, point, target: now + dt * Self::desired_velocity(grab, now) });
             }
         }
         &self.targets
@@ -193,7 +193,7 @@ impl PointerGrabs {
     pub fn apply_forces(&mut self, dynamics: &mut Dynamics, dt: f64, out: &mut [Vec6]) {
         self.points.clear();
         // v* − v without impulses, m/s.
-        let mut errors = [DVec3::ZERO; MOST_GRIPS];
+        let mut errors = [DVec3::ZERO; MAX_GRABS];
         for grab in &self.grabs {
             if let Some(GrabbedPoint { body, point }) = grab.grabbed {
                 let state = &dynamics.bodies[body];
@@ -210,7 +210,7 @@ impl PointerGrabs {
         }
         let w = &mut self.inverse_mass[..n * n];
         dynamics.effective_inverse_mass(&self.points, w);
-        let mut impulses = [DVec3::ZERO; MOST_GRIPS];
+        let mut impulses = [DVec3::ZERO; MAX_GRABS];
         for _ in 0..TUNING.sweeps {
             for i in 0..n {
                 let error = errors[i] - (0..n).fold(DVec3::ZERO, |sum, j| sum + w[i * n + j] * impulses[j]);

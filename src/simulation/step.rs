@@ -18,7 +18,7 @@ use soffio_exhibit::{Exhibit, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::StateHash;
 use soffio_multibody::dynamics::ContactReport;
-use soffio_multibody::procedural::Reach;
+use soffio_multibody::procedural::SolveReport;
 use soffio_sound::SoundCommand;
 
 /// Step counters of a run.
@@ -206,8 +206,8 @@ impl Simulation {
     }
 
     /// Result of the last step of position-based motion.
-    pub fn last_position_solve(&self) -> Reach {
-        self.motion.procedural.reach()
+    pub fn last_position_solve(&self) -> SolveReport {
+        self.motion.procedural.report()
     }
 
     /// Events of the last step, in time order.
@@ -248,7 +248,7 @@ impl Simulation {
             aspect,
             exhibit: &self.exhibit,
             bodies: &self.motion.dynamics.bodies,
-            is_kinematic: self.motion.dynamics.system().driven(),
+            is_kinematic: self.motion.dynamics.system().kinematic(),
         };
         self.motion.pointer_grabs.hit_test(at, &mut self.air.wind, &scene)
     }

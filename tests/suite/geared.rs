@@ -4,7 +4,7 @@ use soffio_exhibit as exhibit;
 use soffio_math::DVec3;
 use soffio_math::noise::Random;
 use soffio_math::spatial::{Vec6, dot, vec6};
-use soffio_multibody::articulation::{Method, System};
+use soffio_multibody::articulation::{LinearSolver, System};
 use soffio_simulation::{Settings, start_dynamics};
 
 /// Of the larger of the two rows' answers to themselves: the dense solver goes through 150 rows.
@@ -23,9 +23,9 @@ fn trains_respond_to_each_other_as_the_whole_mechanism_does() {
     let clock = exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text()));
     let bodies = start_dynamics(&clock, &Settings::default()).bodies;
     let kinematic = vec![false; bodies.len()];
-    let [mut lean, mut whole] = [Method::Sparse, Method::Dense].map(|method| {
+    let [mut lean, mut whole] = [LinearSolver::Sparse, LinearSolver::Dense].map(|method| {
         let mut system = System::new(&bodies, &kinematic, &clock.constraints, method);
-        system.activity.set_shares(0.0);
+        system.activity.update_activations(0.0);
         system.activity.set_time(0.0);
         system.evaluate(&bodies);
         system.factor();
@@ -44,16 +44,16 @@ fn trains_respond_to_each_other_as_the_whole_mechanism_does() {
     let mut random = Random::new(SEED);
     let rows: Vec<[Option<(usize, Vec6)>; 2]> =
         pairs.iter().map(|two| two.map(|name| Some((index(name), wrench(&mut random))))).collect();
-    let geared: Vec<_> = rows.iter().map(|row| lean.geared(row).expect("trains alone")).collect();
+    let train_row: Vec<_> = rows.iter().map(|row| lean.train_row(row).expect("trains alone")).collect();
     let mut answers = vec![vec![0.0; rows.len()]; rows.len()];
     let mut expected = answers.clone();
     for (j, row) in rows.iter().enumerate() {
-        lean.answer_geared(&geared[j]);
+        lean.respond_to_train_row(&train_row[j]);
         whole.b.fill([0.0; 6]);
         row.iter().flatten().for_each(|(body, block)| whole.push_impulse(*body, block, 1.0));
         whole.solve_impulse();
         for i in 0..rows.len() {
-            answers[i][j] = lean.geared_rate(&geared[i]);
+            answers[i][j] = lean.train_row_rate(&train_row[i]);
             expected[i][j] = rows[i].iter().flatten().map(|(body, block)| dot(block, &whole.a[*body])).sum();
         }
     }
@@ -69,5 +69,5 @@ fn trains_respond_to_each_other_as_the_whole_mechanism_does() {
     assert!(together > 4, "the rows hardly feel each other");
     // The pendulum is in no train.
     let other = [Some((index("Pendulum"), wrench(&mut random))), Some((index("Anchor"), wrench(&mut random)))];
-    assert!(lean.geared(&other).is_none());
+    assert!(lean.train_row(&other).is_none());
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, PI, cos, rotation, sin};
 use soffio_multibody::articulation::System;
-use soffio_multibody::collision::TOUCH;
+use soffio_multibody::collision::CONTACT_MARGIN;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_offline::scene::linear;
 use soffio_offline::scene::make;
@@ -159,7 +159,7 @@ fn a_bad_scene_of_contacts_and_loops_is_reported_with_place_and_reason() {
 #[test]
 fn a_ball_lands_a_gate_stops_and_a_loop_holds() {
     /// A contact rests anywhere within the touching layer, m.
-    const SINKS: f64 = 2.0 * TOUCH;
+    const SINKS: f64 = 2.0 * CONTACT_MARGIN;
     let scene = PhysicsScene::parse(GATE, "gate.json").expect("valid");
     let mut gate = Coordinate::new(&scene, 0).expect("a hinge");
     let mut engine = Soffio::new(&scene, DT, Integrator::Auto, Solver::Sparse);
@@ -299,7 +299,7 @@ fn rows_of_a_hinge_are_closed_at_the_start_and_leave_one_turn() {
         &bodies,
         &vec![false; bodies.len()],
         &scene.constraints(),
-        soffio_multibody::articulation::Method::Sparse,
+        soffio_multibody::articulation::LinearSolver::Sparse,
     );
     system.evaluate(&bodies);
     assert!(system.largest_error() < ROUNDING, "{}", system.largest_error());

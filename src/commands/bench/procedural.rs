@@ -12,7 +12,7 @@ use crate::commands::setup::open;
 use soffio_exhibit::Exhibit;
 use soffio_math::{DVec3, sincos};
 use soffio_multibody::dynamics::{Dynamics, Integrator, Solver};
-use soffio_multibody::procedural::{Grip, Method, Procedural};
+use soffio_multibody::procedural::{GrabTarget, PositionSolver, Procedural};
 use soffio_offline::load::HARDEST_BREATH;
 use soffio_offline::scene::make;
 use soffio_simulation::{Command, MotionMode, STEPS_PER_SECOND, Settings, Simulation, StepInput};
@@ -74,7 +74,7 @@ struct Beside {
 
 /// Measures and prints.
 pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
-    for method in [Method::TreeSolve, Method::Compulsive] {
+    for method in [PositionSolver::TreeSolve, PositionSolver::Relaxation] {
         let drag = drag(seconds, method);
         if json {
             println!("{}", serde_json::to_string(&drag).map_err(Failure::input)?);
@@ -119,15 +119,15 @@ pub fn run(names: &[String], seconds: f64, json: bool) -> Outcome {
     Ok(())
 }
 
-fn name(method: Method) -> &'static str {
+fn name(method: PositionSolver) -> &'static str {
     match method {
-        Method::TreeSolve => MotionMode::PositionBased.name(),
-        Method::Compulsive => MotionMode::Procedural.name(),
+        PositionSolver::TreeSolve => MotionMode::PositionBased.name(),
+        PositionSolver::Relaxation => MotionMode::Procedural.name(),
     }
 }
 
 /// Drags the last plate of the mobile, which starts at rest.
-fn drag(seconds: f64, method: Method) -> Drag {
+fn drag(seconds: f64, method: PositionSolver) -> Drag {
     let mut scene = make::mobile(JOINTS, SEED);
     for body in &mut scene.bodies {
         (body.linvel, body.angvel) = ([0.0; 3], [0.0; 3]);
@@ -160,15 +160,15 @@ fn drag(seconds: f64, method: Method) -> Drag {
         let still = vec![[0.0; 6]; dynamics.bodies.len()];
         row.passes = 0.0;
         for (frame, best) in times.iter_mut().enumerate() {
-            let grips = [Grip { body, point, place: place(DT * (frame + 1) as f64) }];
+            let grips = [GrabTarget { body, point, target: place(DT * (frame + 1) as f64) }];
             let began = ThreadTime::now();
             black_box(mover.step(&mut dynamics, DT, &still, &grips, &mut impacts));
             *best = best.min(1e6 * began.elapsed().as_secs_f64());
-            let reach = mover.reach();
-            row.passes += f64::from(reach.passes) / frames as f64;
-            row.most_passes = row.most_passes.max(reach.passes);
+            let report = mover.report();
+            row.passes += f64::from(report.passes) / frames as f64;
+            row.most_passes = row.most_passes.max(report.passes);
             row.residual_m = row.residual_m.max(dynamics.joint_error());
-            row.missed_m = row.missed_m.max(reach.missed);
+            row.missed_m = row.missed_m.max(report.grab_error);
         }
     }
     row.most_us = times.iter().copied().fold(0.0, f64::max);
@@ -177,7 +177,7 @@ fn drag(seconds: f64, method: Method) -> Drag {
     row
 }
 
-fn mover(dynamics: &Dynamics, method: Method) -> Procedural {
+fn mover(dynamics: &Dynamics, method: PositionSolver) -> Procedural {
     Procedural::new(dynamics, soffio_multibody::procedural::Settings { method, ..Default::default() })
 }
 

@@ -36,7 +36,7 @@ use context::Context;
 use nail_paths::add_path_nodes;
 use soffio_math::DVec3;
 use soffio_multibody::dynamics::{Integrator, Solver};
-use soffio_multibody::procedural::Method;
+use soffio_multibody::procedural::PositionSolver;
 
 /// Most bytes of a sidecar.
 const MAX_SIDECAR_BYTES: u64 = 4 << 20;
@@ -288,8 +288,8 @@ impl Context<'_> {
         let motion = match given.motion {
             sidecar::MovedBy::Auto => Motion::Auto { budget },
             sidecar::MovedBy::Dynamics => Motion::Dynamics,
-            sidecar::MovedBy::Procedural => Motion::PositionBased(Method::Compulsive),
-            sidecar::MovedBy::PositionBased => Motion::PositionBased(Method::TreeSolve),
+            sidecar::MovedBy::Procedural => Motion::PositionBased(PositionSolver::Relaxation),
+            sidecar::MovedBy::PositionBased => Motion::PositionBased(PositionSolver::TreeSolve),
         };
         if given.budget.is_some() && given.motion != sidecar::MovedBy::Auto {
             let problem = Diagnostic::new(codes::UNUSED, "the budget is for motion = \"auto\" and does nothing here");

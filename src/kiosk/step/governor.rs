@@ -239,7 +239,9 @@ mod tests {
 
     #[test]
     fn an_exhibit_that_chose_for_itself_is_left_alone() {
-        for motion in [Motion::Dynamics, Motion::PositionBased(soffio_multibody::procedural::Method::Compulsive)] {
+        for motion in
+            [Motion::Dynamics, Motion::PositionBased(soffio_multibody::procedural::PositionSolver::Relaxation)]
+        {
             let mut governor = Governor::new(motion);
             run(&mut governor, 10.0, 1.0, 1e-6);
             assert_eq!((governor.switches(), governor.mode()), (0, None));

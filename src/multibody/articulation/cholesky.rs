@@ -1,22 +1,22 @@
-//! Cholesky factor of a symmetric positive semi-definite matrix, A = L Lᵀ, with the rows that repeat others left out.
+//! Dense Cholesky factor of a symmetric positive semi-definite matrix, A = L Lᵀ, without redundant rows.
 //!
-//! A pivot that is a tiny share of what its row would have alone says that the row depends on others: it gets 0, so that
-//! its unknown comes out 0 and the others share the work. (Its own diagonal is no measure: where a tree holds the row
-//! already, that is rounding too.) Nothing allocates after [`Cholesky::with_room`].
+//! A pivot far below its row's own scale shows that the row depends on others: it gets 0, so that its unknown is 0
+//! and the other rows share the load. (The row's own diagonal is no scale: where a tree already holds the row, that
+//! is rounding too.) Nothing allocates after [`Cholesky::with_room`].
 
-/// The factor; the inverse pivots stand on the diagonal.
+/// The factor; its diagonal holds the inverse pivots.
 #[derive(Clone, Debug)]
 pub struct Cholesky {
     n: usize,
     entries: Vec<f64>,
-    /// What each row would have on the diagonal alone.
+    /// Scale of each row: its diagonal without coupling to others.
     alone: Vec<f64>,
     redundant: Vec<bool>,
     tolerance: f64,
 }
 
 impl Cholesky {
-    /// Room for `most` rows; a pivot below `tolerance` of what its row has alone counts as 0.
+    /// Room for `most` rows. A pivot below `tolerance` times its row's scale counts as 0.
     pub fn with_room(most: usize, tolerance: f64) -> Self {
         Self { n: 0, entries: vec![0.0; most * most], alone: vec![0.0; most], redundant: vec![false; most], tolerance }
     }
@@ -32,7 +32,7 @@ impl Cholesky {
         &mut self.entries[i * self.n + j]
     }
 
-    /// Says what a row would have on the diagonal alone, before [`Cholesky::factor`].
+    /// Sets a row's scale (its diagonal without coupling to others), before [`Cholesky::factor`].
     pub fn measure(&mut self, row: usize, alone: f64) {
         self.alone[row] = alone;
     }
@@ -42,22 +42,22 @@ impl Cholesky {
     pub fn factor(&mut self) {
         let n = self.n;
         for j in 0..n {
-            let (done, rest) = self.entries.split_at_mut((j + 1) * n);
+            let (done, below_rows) = self.entries.split_at_mut((j + 1) * n);
             let row = &mut done[j * n..];
             let diagonal = row[j];
             let d = diagonal - row[..j].iter().map(|x| x * x).sum::<f64>();
-            let held = d > self.tolerance * self.alone[j].max(diagonal);
-            let pivot = if held { 1.0 / d.sqrt() } else { 0.0 };
-            self.redundant[j] = !held;
+            let independent = d > self.tolerance * self.alone[j].max(diagonal);
+            let pivot = if independent { 1.0 / d.sqrt() } else { 0.0 };
+            self.redundant[j] = !independent;
             row[j] = pivot;
-            for below in rest.chunks_exact_mut(n).take(n - j - 1) {
+            for below in below_rows.chunks_exact_mut(n).take(n - j - 1) {
                 let s = below[j] - below[..j].iter().zip(&row[..j]).map(|(x, y)| x * y).sum::<f64>();
                 below[j] = s * pivot;
             }
         }
     }
 
-    /// Was a row left out?
+    /// Whether a row was redundant at the last factorisation.
     pub fn is_redundant(&self, row: usize) -> bool {
         self.redundant[row]
     }

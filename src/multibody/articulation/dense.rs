@@ -1,26 +1,26 @@
-//! The dense reference: all rows in one matrix, without regard to who hangs on whom.
+//! Dense reference solver: Cholesky of the Schur complement of all rows.
 //!
 //! ```text
 //! (J M⁻¹ Jᵀ + Γ) λ = g − J M⁻¹ b          a = M⁻¹ (b + Jᵀ λ)
 //! ```
 //!
-//! by Cholesky with the pivots of redundant rows left out. O((rows)³): for tests and for figures of a few bodies.
+//! Pivots of redundant rows are left out. O(rows³): for tests and for articulations of a few bodies.
 
 use super::cholesky::Cholesky;
-use super::loops::{GATHERING, LoopRow};
-use super::quads::Quads;
+use super::lane_blocks::LaneBlocks;
+use super::loops::{LoopRow, STABILISING_COMPLIANCE};
 use soffio_math::spatial::Articulated;
 use soffio_math::spatial::{Mat6, Vec6, add_scaled, dot, inverse, mul};
 
-/// A pivot below this share of its row's answer alone says that the row repeats earlier ones.
+/// Least pivot, relative to the row's uncoupled effective inverse mass; below it the row repeats earlier ones.
 const REDUNDANT: f64 = 1e-11;
 
-/// Factor of the dense system. Its rows are given as [`LoopRow`]s, which know no tree.
+/// Factor of the dense system, of rows given as [`LoopRow`]s.
 #[derive(Clone, Debug)]
 pub struct Dense {
-    /// Every row that there may be, joints and couplings alike.
+    /// All possible rows, of joints and couplings.
     pub rows: Vec<LoopRow>,
-    driven: Vec<bool>,
+    kinematic: Vec<bool>,
     inverse: Vec<Mat6>,
     active: Vec<usize>,
     factor: Cholesky,
@@ -29,11 +29,11 @@ pub struct Dense {
 
 impl Dense {
     /// Room for these rows.
-    pub fn new(rows: Vec<LoopRow>, driven: &[bool]) -> Self {
+    pub fn new(rows: Vec<LoopRow>, kinematic: &[bool]) -> Self {
         let n = rows.len();
         Self {
-            driven: driven.to_vec(),
-            inverse: vec![[[0.0; 6]; 6]; driven.len()],
+            kinematic: kinematic.to_vec(),
+            inverse: vec![[[0.0; 6]; 6]; kinematic.len()],
             active: Vec::with_capacity(n),
             factor: Cholesky::with_room(n, REDUNDANT),
             mu: vec![0.0; n],
@@ -41,15 +41,16 @@ impl Dense {
         }
     }
 
-    /// Was this row found to repeat others at the last factorisation?
+    /// Whether this row was redundant at the last factorisation.
     pub fn is_redundant(&self, row: usize) -> bool {
         self.active.iter().position(|&r| r == row).is_some_and(|k| self.factor.is_redundant(k))
     }
 
-    /// Factors J M⁻¹ Jᵀ + Γ for the active rows. Does the figure gather?
-    pub fn factor(&mut self, quads: &Quads, gathering: bool) {
+    /// Factors J M⁻¹ Jᵀ + Γ for the active rows. `stabilising`: some rows are being closed by stabilisation, so all
+    /// rows get [`STABILISING_COMPLIANCE`].
+    pub fn factor(&mut self, lane_blocks: &LaneBlocks, stabilising: bool) {
         for (body, inverted) in self.inverse.iter_mut().enumerate() {
-            *inverted = inverse(&Articulated::alone(quads.mass(body), quads.inertia(body)).matrix());
+            *inverted = inverse(&Articulated::alone(lane_blocks.mass(body), lane_blocks.inertia(body)).matrix());
         }
         self.active.clear();
         self.active.extend((0..self.rows.len()).filter(|&row| self.rows[row].active));
@@ -61,7 +62,7 @@ impl Dense {
                 let mut sum = 0.0;
                 for (body, block) in &r.parts {
                     for (other, against) in &s.parts {
-                        if body == other && !self.driven[*body] {
+                        if body == other && !self.kinematic[*body] {
                             sum += dot(block, &mul(&self.inverse[*body], against));
                         }
                     }
@@ -70,7 +71,7 @@ impl Dense {
             }
             let alone = *self.factor.entry(i, i);
             self.factor.measure(i, alone);
-            *self.factor.entry(i, i) += if gathering { GATHERING * alone } else { 0.0 };
+            *self.factor.entry(i, i) += if stabilising { STABILISING_COMPLIANCE * alone } else { 0.0 };
             let row = &self.rows[self.active[i]];
             for (l, gamma) in row.compliance[..=row.place].iter().enumerate() {
                 *self.factor.entry(i, i - row.place + l) += gamma;
@@ -79,9 +80,9 @@ impl Dense {
         self.factor.factor();
     }
 
-    /// Solves for `a` and `lambda`; the `a` of driven bodies must be given.
+    /// Solves for `a` and `lambda`; the `a` of kinematic bodies is an input.
     pub fn solve(&mut self, b: &mut [Vec6], g: &[f64], a: &mut [Vec6], lambda: &mut [f64]) {
-        for body in (0..b.len()).filter(|&body| !self.driven[body]) {
+        for body in (0..b.len()).filter(|&body| !self.kinematic[body]) {
             a[body] = mul(&self.inverse[body], &b[body]);
         }
         let n = self.active.len();
@@ -94,12 +95,12 @@ impl Dense {
             let row = &self.rows[self.active[k]];
             lambda[row.at] = self.mu[k];
             for (body, block) in &row.parts {
-                if !self.driven[*body] {
+                if !self.kinematic[*body] {
                     add_scaled(&mut b[*body], self.mu[k], block);
                 }
             }
         }
-        for body in (0..b.len()).filter(|&body| !self.driven[body]) {
+        for body in (0..b.len()).filter(|&body| !self.kinematic[body]) {
             a[body] = mul(&self.inverse[body], &b[body]);
         }
     }

@@ -1,30 +1,35 @@
-//! Bodies joined: constraints as stacks of one-DOF rows, and the tree factor that motion of either kind solves with.
+//! Articulated-body dynamics with Lagrange multipliers, in linear time for trees (D. Baraff, Linear-time dynamics
+//! using Lagrange multipliers, SIGGRAPH 1996).
+//!
+//! A constraint is a stack of one-DOF Jacobian rows (`rows`). A tree factor (`tree.rs`), sparse factors of closed
+//! loops (`loops`) and gear trains (`trains`) solve all rows. Constrained dynamics and position-based motion share
+//! the factor.
 
 use soffio_math::{DVec3, Function};
 
 mod activity;
-pub mod ball;
-pub mod block;
+
+pub mod ball_elimination;
+mod ball_joints;
 mod cholesky;
 mod dense;
-mod groups;
-mod hang;
-mod hung;
+mod disjoint_sets;
+pub mod lane_blocks;
 mod loops;
-pub mod quads;
+mod partial_rows;
 pub mod rows;
 mod schedule;
-mod share;
-mod sweeps;
 mod system;
+mod topology;
 mod trains;
 pub mod tree;
+mod tree_sweeps;
 
-pub use activity::{Activity, Break};
+pub use activity::{Activity, Break, Load, LoadKind};
 pub use cholesky::Cholesky;
-pub use groups::Groups;
+pub use disjoint_sets::DisjointSets;
 pub use schedule::{Breaking, Schedule, Trigger, Window};
-pub use system::{Geared, Joint, Method, RowState, System};
+pub use system::{Joint, LinearSolver, RowState, System, TrainRow};
 
 /// A point fixed in a body's node frame, or in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,11 +49,12 @@ pub struct Axis {
     pub direction: DVec3,
 }
 
-/// What a constraint holds. Every joint of the field is a stack of these: a hinge is a point and two orientations, a
-/// slider three orientations and two planes, a line two planes, a weld a point and three orientations.
+/// Kind of a constraint. Every usual joint is a stack of these: a hinge is a point and two orientations, a slider
+/// three orientations and two planes, a line two planes, a weld a point and three orientations.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ConstraintKind {
-    /// Two points coincide (3 rows). With a world anchor this is a nail; on a driven body it is a moving nail.
+    /// Two points coincide (3 rows): a world anchor where one point is the world's, a prescribed path where one body
+    /// is kinematic.
     PointToPoint {
         /// The point of the first body.
         a: Anchor,
@@ -75,20 +81,20 @@ pub enum ConstraintKind {
         /// Angle of T above the plane across N, rad.
         angle: Function,
     },
-    /// Turns and ways stay in proportion (1 row): Σ coefficient · q = const. Gears, drums and cords, racks, screws,
-    /// differentials.
+    /// Rotations and displacements stay in proportion (1 row): Σ coefficient · q = const. Gears, drums and cords,
+    /// racks, screws, differentials.
     Coupling {
-        /// What is coupled: two at least, or one turn against another body, which a clutch holds.
+        /// At least two coupled coordinates; or one rotation against another body, for a clutch.
         terms: Vec<Term>,
     },
 }
 
-/// A turn or a way, and how much it counts in a coupling.
+/// One coordinate of a coupling and its coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
     /// What is measured.
     pub measure: Measure,
-    /// Its weight: radius with its sign (m), tooth count, or 1 for a way.
+    /// Radius with its sign (m), number of teeth, or 1 for a displacement.
     pub coefficient: f64,
 }
 
@@ -102,8 +108,8 @@ pub enum Measure {
         /// Body that carries the axle; `None` is the world.
         frame: Option<usize>,
     },
-    /// Way of a point along a direction fixed in `direction.body` (or the world), since the start, m.
-    Way {
+    /// Displacement of a point along a direction fixed in `direction.body` (or the world), since the start, m.
+    Displacement {
         /// The moving point.
         point: Anchor,
         /// Unit direction.
@@ -116,7 +122,7 @@ pub enum Measure {
 pub struct PivotFriction {
     /// Coulomb coefficient μ.
     pub coefficient: f64,
-    /// Effective lever arm, m (a hook in a loop: 0.2–0.5 mm).
+    /// Effective radius of the bearing, m (a hook in a loop: 0.2–0.5 mm).
     pub radius: f64,
 }
 
@@ -129,13 +135,13 @@ pub struct Constraint {
     pub kind: ConstraintKind,
     /// When it acts.
     pub schedule: Schedule,
-    /// When it gives way; constraints of one combination break together.
+    /// Load at which it breaks, if any; constraints of one combination break together.
     pub breaking: Option<Breaking>,
     /// Friction of the pivot; `None` turns freely.
     pub friction: Option<PivotFriction>,
-    /// A coupling that gives way where it carries more than this, N m, and holds again where it comes to rest.
+    /// Torque above which a clutch slips, N m; it sticks again once both sides turn alike. `None`: not a clutch.
     pub slips: Option<f64>,
-    /// 1/ω₀ of its own stabiliser, s; `None` has the figure's.
+    /// 1/ω₀ of its own Baumgarte stabilisation, s; `None` uses the articulation's.
     pub stabilization_time: Option<f64>,
 }
 
@@ -153,13 +159,13 @@ impl Constraint {
         }
     }
 
-    /// Name of the combination it belongs to: what stands before the `/`.
+    /// Name of its combination: the part of the name before the `/`.
     pub fn group(&self) -> &str {
         self.name.split('/').next().unwrap_or(&self.name)
     }
 }
 
-/// A one-sided constraint: something stays within bounds.
+/// A unilateral constraint: a coordinate stays within bounds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
     /// Name of the constraint that it belongs to, or its own.
@@ -170,7 +176,7 @@ pub struct Limit {
     pub restitution: f64,
 }
 
-/// What a limit bounds.
+/// Bounded coordinate of a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LimitKind {
     /// The angle between an axis of the first body and one of the second stays below `max`: a cup's rim on its point.
@@ -182,7 +188,7 @@ pub enum LimitKind {
         /// rad.
         max: f64,
     },
-    /// A turn or way since the start stays between two bounds (rad or m): stops of a hinge or a slider.
+    /// A rotation or displacement since the start stays between two bounds (rad or m): stops of a hinge or a slider.
     Range {
         /// What is bounded.
         measure: Measure,
@@ -202,15 +208,15 @@ pub enum LimitKind {
         /// m; may be ∞.
         max: f64,
     },
-    /// A turn goes one way only: a pawl on a wheel. It can fall back to the last tooth that it passed.
+    /// A rotation in one direction only: a pawl on a wheel. It can fall back to the last tooth that it passed.
     Ratchet {
-        /// What turns; free where it grows.
+        /// The rotation; free to grow.
         measure: Measure,
         /// Angle from tooth to tooth (m for a rack); 0 catches anywhere.
         pitch: f64,
     },
-    /// Two turns or ways stay in proportion but for some play: |c₁ q₁ + c₂ q₂| ≤ play/2. The backlash of a gear: within
-    /// it the wheels are free of each other, at either end of it a flank of a tooth lies on the other wheel's.
+    /// Two coordinates stay in proportion except for some play: |c₁ q₁ + c₂ q₂| ≤ play/2. The backlash of a gear:
+    /// inside it the wheels are independent, at either end a flank of a tooth rests on the other wheel's.
     Play {
         /// What is coupled.
         terms: [Term; 2],
@@ -226,15 +232,15 @@ pub struct Spring {
     pub name: String,
     /// What it acts on.
     pub kind: SpringKind,
-    /// Value without force: m or rad.
+    /// Length (m) or angle (rad) at which the spring is relaxed.
     pub rest: Function,
     /// N/m or N m/rad.
     pub stiffness: Function,
     /// N s/m or N m s/rad.
     pub damping: Function,
-    /// When it acts; its share scales the force.
+    /// When it acts; the activation scales the force.
     pub schedule: Schedule,
-    /// When it gives way.
+    /// Load at which it breaks.
     pub breaking: Option<Breaking>,
 }
 
@@ -248,7 +254,7 @@ pub enum SpringKind {
         /// Other end.
         b: Anchor,
     },
-    /// A turn about an axis (or a way along one), counted from the start.
+    /// A rotation about an axis (or a displacement along one), since the start.
     Angular {
         /// What is measured.
         measure: Measure,
@@ -256,11 +262,11 @@ pub enum SpringKind {
 }
 
 impl Measure {
-    /// The body that is measured, and the body it is measured against.
+    /// The measured body and the reference body; `None` is the world.
     pub fn bodies(&self) -> (Option<usize>, Option<usize>) {
         match self {
             Self::Angle { axis, frame } => (axis.body, *frame),
-            Self::Way { point, direction } => (point.body, direction.body),
+            Self::Displacement { point, direction } => (point.body, direction.body),
         }
     }
 }

@@ -1,61 +1,61 @@
-//! When a constraint acts: windows, ramps, periods, triggers, breaking.
+//! Schedules of constraints: windows, ramps, periods, triggers, breaking.
 //!
-//! A row carries the *share* s ∈ [0, 1] of the force that would hold it: 0 is absent, 1 is hard (`share.rs`); two rows
-//! whose shares cross morph one constraint into the other. A row that carries a part only, or that closes again, has
-//! its error drawn in by the critically damped stabiliser, never snapped.
+//! A row has an *activation* s ∈ [0, 1], the fraction of the force that would hold it: 0 is absent, 1 is hard
+//! (`partial_rows.rs`). Two rows whose activations cross morph one constraint into the other. A row that is partially
+//! active, or acts again after a break, is closed by the critically damped Baumgarte stabiliser, never snapped.
 
 /// When a constraint acts. The default is always.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schedule {
-    /// Times during which it acts, in order, apart from each other; none at all is always. The first may begin before
-    /// time 0, and the last reach over the period: it does not ramp there.
+    /// Times during which it acts, in order and disjoint; none at all is always. The first may begin before time 0,
+    /// and the last extend over the period: it does not ramp there.
     pub windows: Vec<Window>,
     /// The windows repeat after this time, s.
     pub period: Option<f64>,
-    /// Seconds over which the share grows from 0 at a window's start.
+    /// Seconds over which the activation grows from 0 at a window's start.
     pub ramp_in: f64,
     /// Seconds over which it falls to 0 before a window's end.
     pub ramp_out: f64,
-    /// What starts the clock of the windows; without it they count from the exhibit's reset.
+    /// Event that starts the clock of the windows; without it they count from the exhibit's reset.
     pub trigger: Option<Trigger>,
 }
 
 /// A span of time, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// First moment.
+    /// Start, s.
     pub start: f64,
-    /// It acts no more from here on; may be infinite.
+    /// End, s, exclusive; may be infinite.
     pub end: f64,
 }
 
-/// What starts a schedule's clock; each time anew.
+/// Event that starts a schedule's clock; each new event restarts it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Trigger {
-    /// A hit on a body.
+    /// An impact on a body.
     Impact {
         /// Index of the body.
         body: usize,
-        /// Of this impulse or more, N s.
+        /// Least impulse, N s.
         least_impulse: f64,
     },
     /// A breath.
     Breath {
-        /// Of this speed at the lips or more, m/s.
+        /// Least speed at the lips, m/s.
         least_speed: f64,
     },
 }
 
-/// The load at which a constraint gives way.
+/// Load at which a constraint breaks; infinite by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Breaking {
-    /// Of its lengths' multipliers, N.
+    /// Force: norm of the multipliers of its length rows, N.
     pub force: f64,
-    /// Of its angles' multipliers, N m.
+    /// Torque: norm of the multipliers of its angle rows, N m.
     pub torque: f64,
-    /// Of what a hit sends through it, N s (angles: N m s).
+    /// Impulse of an impact through it, N s (angle rows: N m s).
     pub impulse: f64,
-    /// Seconds after which it closes again; infinite is at the next reset.
+    /// Seconds after which it is restored; infinite means at the next reset.
     pub restore: f64,
 }
 
@@ -66,13 +66,13 @@ impl Default for Breaking {
 }
 
 impl Schedule {
-    /// Is there nothing to look up?
+    /// Whether it acts at all times.
     pub fn is_always(&self) -> bool {
         self.windows.is_empty() && self.trigger.is_none()
     }
 
-    /// The share at `t` seconds after reset; `triggered` is when the trigger last fired, if it did.
-    pub fn share(&self, t: f64, triggered: Option<f64>) -> f64 {
+    /// Activation at `t` seconds after reset; `triggered` is when the trigger last fired, if it did.
+    pub fn activation(&self, t: f64, triggered: Option<f64>) -> f64 {
         let t = match (&self.trigger, triggered) {
             (None, _) => t,
             (Some(_), Some(at)) => t - at,
@@ -88,11 +88,11 @@ impl Schedule {
         rise.min(fall).clamp(0.0, 1.0)
     }
 
-    /// This schedule without the windows of `other`: what it lets go fades as `other` grows, so that where it was hard
-    /// its share is 1 less the share of `other`. Where this one is always there and `other` repeats, so does the answer.
+    /// This schedule without the windows of `other`: its activation fades as `other` grows, so that where it was hard
+    /// it is 1 less the activation of `other`. If this one always acts and `other` repeats, the result repeats too.
     pub fn without(&self, other: &Self) -> Self {
         let always = |period: Option<f64>| match period {
-            // A window reaches round the period's end, so that nothing ramps there.
+            // A window extends round the period's end, so that nothing ramps there.
             Some(period) => Window { start: -period, end: 2.0 * period },
             None => Window { start: f64::NEG_INFINITY, end: f64::INFINITY },
         };
@@ -108,15 +108,15 @@ impl Schedule {
             // The ramps of both cross inside the window of `other`.
             let end = period.map_or(hole.end, |period| hole.end.min(period));
             let hole = Window { start: hole.start + other.ramp_in, end: end - other.ramp_out };
-            let mut rest = Vec::new();
+            let mut remaining = Vec::new();
             for window in left {
                 let before = Window { start: window.start, end: window.end.min(hole.start + shift) };
                 let after = Window { start: window.start.max(hole.end + shift), end: window.end };
-                rest.extend([before, after].into_iter().filter(|w| w.start < w.end));
+                remaining.extend([before, after].into_iter().filter(|w| w.start < w.end));
             }
-            left = rest;
+            left = remaining;
         }
-        // What lies outside the period is never looked up.
+        // Windows outside the period are never looked up.
         left.retain(|window| window.end > 0.0 && period.is_none_or(|period| window.start < period));
         if left.is_empty() {
             // Never: a window that is over before it begins.

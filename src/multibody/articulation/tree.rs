@@ -1,4 +1,5 @@
-//! The tree factor: linear-time solution of the constrained equations of motion.
+//! Articulated-body factorisation (Baraff 1996; equivalent to Featherstone's articulated-body algorithm): linear-time
+//! solution of the constrained equations of motion.
 //!
 //! # The equations
 //!
@@ -20,40 +21,44 @@
 //! λ = h − X a_p                X = K⁻¹ J_p           A_p += J_pᵀ X        b_p += J_pᵀ h
 //! ```
 //!
-//! (the parent feels J_pᵀ λ = J_pᵀ h − J_pᵀ X a_p). Then, roots first, a_c = A⁻¹ b_c + W λ. The factor
+//! (the load on the parent is J_pᵀ λ = J_pᵀ h − J_pᵀ X a_p). Then, roots first, a_c = A⁻¹ b_c + W λ. The factor
 //! depends on poses and masses only, so one factor serves accelerations, position and velocity projection, friction
-//! and impacts. A body that hangs by one point only goes through `ball.rs`, the same elimination in 3×3 blocks; those of
-//! one depth do not wait for each other and go four at a time (`sweeps.rs`).
+//! and impacts. A body on a ball joint uses `ball_elimination.rs`, the same elimination in 3×3 blocks; ball-joint
+//! bodies of one depth are independent and are processed four at a time (`tree_sweeps.rs`).
 //!
-//! A driven body's a is given: it is ground that moves. Γ need not be diagonal within a joint: `share.rs` says why.
+//! The acceleration of a kinematic body is given: it is ground that moves. Γ need not be diagonal within a joint
+//! (`partial_rows.rs`).
 //!
-//! Invariant: the order and all sizes are fixed by `Tree::new`; `factor` and `solve` never allocate.
+//! Invariant: `Tree::new` fixes the order and all sizes; `factor` and `solve` never allocate.
 
 use fearless_simd::Level;
 
-use super::Groups;
-use super::ball::{Ball, Points};
-use super::block::{MAX_ROWS, RowBlock, RowSquare, for_rows, pseudo_inverse};
-use super::hang::{Hang, Hooks, Link, Step, by_quads, hangs, hooks};
-use super::loops::graph::{Component, Graph};
-use super::quads::{Members, Slot};
+use super::DisjointSets;
+use super::ball_elimination::{BallElimination, BallJointBlock};
+use super::lane_blocks::{BlockBodies, BodyLane};
+use super::loops::biconnected::{Component, Graph};
+use super::topology::{
+    EliminationStep, Link, ParentReferences, TreeNode, build_nodes, parent_references, schedule_elimination,
+};
 use soffio_math::DVec3;
+use soffio_math::for_rows;
 use soffio_math::lanes::{Four, One};
 use soffio_math::spatial::NUMBERS;
+use soffio_math::spatial::row_blocks::{MAX_ROWS, RowBlock, RowSquare, pseudo_inverse};
 use soffio_math::spatial::{Mat6, add_scaled, dot, mul};
 
 /// Rows of one joint at one configuration, for the general elimination.
 #[derive(Clone, Debug)]
 pub struct JointRows {
-    /// Used rows, at most [`MAX_ROWS`].
+    /// Number of used rows, at most [`MAX_ROWS`].
     pub rows: usize,
-    /// Blocks that multiply the coordinates of the first body.
+    /// J on the first body, one six-vector per row.
     pub a: RowBlock,
-    /// Blocks that multiply the coordinates of the second body; unused where it is the world.
+    /// J on the second body; unused where that is the world.
     pub b: RowBlock,
     /// Γ, lower triangle; 0 is hard.
     pub compliance: RowSquare,
-    /// Is any of it not 0?
+    /// Whether any entry of Γ is not 0.
     pub soft: bool,
 }
 
@@ -64,16 +69,16 @@ impl Default for JointRows {
     }
 }
 
-/// A joint as the tree needs it now.
+/// A joint's present form in the elimination.
 #[derive(Clone, Copy, Debug)]
 pub enum Form<'a> {
-    /// One point, hard: arms from the first and the second body's centre, world axes, m.
+    /// A hard ball joint: arms from the centres of mass of the first and the second body, world axes, m.
     Point(DVec3, DVec3),
-    /// Any rows.
+    /// Any other rows.
     Rows(&'a JointRows),
 }
 
-/// What is kept of a body's general elimination, in the letters of the file's head; `k` holds K⁻¹.
+/// Factor of a body on a joint of any kind, in the symbols of the module's head; `k` holds K⁻¹.
 #[derive(Clone, Debug)]
 pub(super) struct General {
     pub rows: usize,
@@ -85,183 +90,191 @@ pub(super) struct General {
     pub redundant: u32,
 }
 
-/// Elimination order and factor of an articulated figure.
+/// Elimination order and factor of the kinematic tree.
 #[derive(Clone, Debug)]
 pub struct Tree {
     pub(super) level: Level,
-    /// Roots first.
+    /// All bodies, roots first.
     order: Vec<usize>,
-    /// The same by quads, without what is driven; reversed it is the elimination order. Then those of them whose bodies are awake.
-    pub(super) steps: Vec<Step>,
-    pub(super) awake: Vec<Step>,
-    /// Quads that the factor begins with: those of whom is eliminated, and of what these hang on.
-    pub(super) begun: Vec<usize>,
-    /// Room to find them: a flag a quad, and one for the world's.
+    /// Elimination steps, roots first, without kinematic bodies; and those of them with an awake body. Reversed, this
+    /// is the elimination order.
+    pub(super) steps: Vec<EliminationStep>,
+    pub(super) awake: Vec<EliminationStep>,
+    /// Lane blocks whose articulated inertias are initialised: of the eliminated bodies and of their parents.
+    pub(super) initial_blocks: Vec<usize>,
+    /// Scratch for finding them: a flag for each lane block and for the world's.
     needed: Vec<bool>,
-    pub(super) hang: Vec<Hang>,
-    pub(super) driven: Vec<bool>,
-    /// Which links are the tree's, and what else there is.
+    pub(super) nodes: Vec<TreeNode>,
+    pub(super) kinematic: Vec<bool>,
+    /// Whether each joint is an edge of the tree; and the components with loops.
     bridges: Vec<bool>,
     pub(super) components: Vec<Component>,
-    pub(super) members: Vec<Members>,
-    pub(super) slots: Vec<Slot>,
-    pub(super) hooks: Vec<Hooks>,
-    /// Articulated masses by bodies, and what hangs on the world, which does not move for it.
+    pub(super) block_bodies: Vec<BlockBodies>,
+    pub(super) body_lanes: Vec<BodyLane>,
+    pub(super) parents: Vec<ParentReferences>,
+    /// Articulated inertias by bodies; the last one collects the load on the world and is never read.
     pub(super) articulated: Vec<[f64; NUMBERS]>,
-    /// By quads.
-    pub(super) balls: Vec<Ball<Four>>,
-    pub(super) points: Vec<Points>,
-    /// Per body, where its joint is ever anything but a point.
+    /// By lane blocks.
+    pub(super) ball_eliminations: Vec<BallElimination<Four>>,
+    pub(super) points: Vec<BallJointBlock>,
+    /// Per body; `None` where the body is always on a ball joint or in a loop.
     pub(super) general: Vec<Option<Box<General>>>,
 }
 
 impl Tree {
-    /// The elimination order of the bodies of a graph joined by `links`: breadth first from the ground (the world and what is
-    /// driven), then each piece that floats from its first body. `at` is where each link's numbers begin, `points`
-    /// whether it is never anything but a point. `components` are those of the graph.
-    /// `level` says which instructions there are, `groups` which bodies stand beside each other where they may.
+    /// Elimination order of the bodies of a graph joined by `links`: breadth first from the ground (the world and the
+    /// kinematic bodies), then from the first body of each floating piece. `at` is where each joint's numbers begin,
+    /// `points` whether it is always a ball joint, `components` are those of the graph. `level` is the SIMD level;
+    /// bodies of one group are placed side by side where possible.
     pub(super) fn new(
         level: Level,
         graph: &Graph,
         links: &[Link],
         (at, points): (&[usize], &[bool]),
         components: Vec<Component>,
-        groups: &Groups,
+        groups: &DisjointSets,
     ) -> Self {
-        let bodies = graph.driven.len();
-        // To the tree a train is ground that moves.
-        let driven: Vec<bool> = (0..bodies).map(|body| graph.driven[body] || graph.train[body].is_some()).collect();
+        let bodies = graph.kinematic.len();
+        // For the tree, a gear train is ground that moves.
+        let kinematic: Vec<bool> =
+            (0..bodies).map(|body| graph.kinematic[body] || graph.train[body].is_some()).collect();
         let (of_tree, components): (Vec<_>, Vec<_>) =
             components.into_iter().partition(|component| component.is_bridge(links.len()));
         let mut bridges = vec![false; links.len()];
         of_tree.iter().for_each(|component| bridges[component.ties[0]] = true);
-        let (hang, mut order) = hangs(&driven, links, (at, points), (&bridges, &components));
-        // What sleeps is left out quad by quad, so groups share as few as they can; sums come out the same.
-        order.sort_by_key(|&body| (hang[body].depth, groups.first(body)));
-        let (steps, members) = by_quads(&order, &hang, &driven, &components);
-        let (slots, hooks) = hooks(&hang, &members);
+        let (nodes, mut order) = build_nodes(&kinematic, links, (at, points), (&bridges, &components));
+        // Sleeping lane blocks are skipped, so a block should hold few groups; sums do not depend on it.
+        order.sort_by_key(|&body| (nodes[body].depth, groups.first(body)));
+        let (steps, block_bodies) = schedule_elimination(&order, &nodes, &kinematic, &components);
+        let (body_lanes, parents) = parent_references(&nodes, &block_bodies);
         let mut tree = Self {
             level,
-            begun: Vec::with_capacity(members.len()),
-            needed: vec![false; members.len() + 1],
-            general: hang.iter().map(|hang| (!hang.ball && hang.component.is_none()).then(Box::default)).collect(),
+            initial_blocks: Vec::with_capacity(block_bodies.len()),
+            needed: vec![false; block_bodies.len() + 1],
+            general: nodes
+                .iter()
+                .map(|node| (!node.ball_joint && node.component.is_none()).then(Box::default))
+                .collect(),
             awake: steps.clone(),
             steps,
-            hooks,
-            slots,
+            parents,
+            body_lanes,
             articulated: vec![[0.0; NUMBERS]; bodies + 1],
-            balls: vec![Ball::default(); members.len()],
-            points: vec![Points::default(); members.len()],
-            members,
+            ball_eliminations: vec![BallElimination::default(); block_bodies.len()],
+            points: vec![BallJointBlock::default(); block_bodies.len()],
+            block_bodies,
             order,
-            hang,
-            driven,
+            nodes,
+            kinematic,
             bridges,
             components,
         };
-        tree.look_who_begins();
+        tree.find_initial_blocks();
         tree
     }
 
-    /// Leaves out the steps whose bodies all sleep.
+    /// Skips the steps whose bodies are all asleep.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
-        let Self { steps, awake, members, components, .. } = self;
-        let of = |slot: &Slot| asleep[members[slot.quad].bodies[slot.lane]];
-        let idle = |step: &Step| match step {
-            Step::Quad(quad) => members[*quad].all().iter().all(|&body| asleep[body]),
-            Step::Point(slot) => of(slot),
-            Step::Body(body) => asleep[*body],
-            Step::Loops(component) => components[*component].bodies.first().is_some_and(|&body| asleep[body]),
+        let Self { steps, awake, block_bodies, components, .. } = self;
+        let of = |body_lane: &BodyLane| asleep[block_bodies[body_lane.lane_block].bodies[body_lane.lane]];
+        let asleep_step = |step: &EliminationStep| match step {
+            EliminationStep::LaneBlock(lane_block) => block_bodies[*lane_block].all().iter().all(|&body| asleep[body]),
+            EliminationStep::Point(body_lane) => of(body_lane),
+            EliminationStep::Body(body) => asleep[*body],
+            EliminationStep::Loops(component) => {
+                components[*component].bodies.first().is_some_and(|&body| asleep[body])
+            }
         };
         awake.clear();
-        awake.extend(steps.iter().filter(|step| !idle(step)));
-        self.look_who_begins();
+        awake.extend(steps.iter().filter(|step| !asleep_step(step)));
+        self.find_initial_blocks();
     }
 
-    fn look_who_begins(&mut self) {
-        let Self { awake, members, slots, hooks, components, begun, needed, .. } = self;
+    fn find_initial_blocks(&mut self) {
+        let Self { awake, block_bodies, body_lanes, parents, components, initial_blocks, needed, .. } = self;
         needed.fill(false);
-        let mut needs = |slot: Slot, itself: bool| {
-            needed[slot.quad] |= itself;
-            needed[hooks[slot.quad].slots[slot.lane].quad] = true;
+        let mut needs = |body_lane: BodyLane, itself: bool| {
+            needed[body_lane.lane_block] |= itself;
+            needed[parents[body_lane.lane_block].body_lanes[body_lane.lane].lane_block] = true;
         };
         for step in awake.iter() {
             match *step {
-                // Leaves carry themselves alone.
-                Step::Quad(quad) => {
-                    (0..members[quad].count).for_each(|lane| needs(Slot { quad, lane }, !hooks[quad].leaves));
+                // A leaf has no children's inertia to collect.
+                EliminationStep::LaneBlock(lane_block) => {
+                    (0..block_bodies[lane_block].count)
+                        .for_each(|lane| needs(BodyLane { lane_block, lane }, !parents[lane_block].leaves));
                 }
-                Step::Point(slot) => needs(slot, true),
-                Step::Body(body) => needs(slots[body], true),
-                Step::Loops(index) => {
+                EliminationStep::Point(body_lane) => needs(body_lane, true),
+                EliminationStep::Body(body) => needs(body_lanes[body], true),
+                EliminationStep::Loops(index) => {
                     let Component { bodies, top, .. } = &components[index];
-                    bodies.iter().chain(top).for_each(|&body| needs(slots[body], true));
+                    bodies.iter().chain(top).for_each(|&body| needs(body_lanes[body], true));
                 }
             }
         }
-        begun.clear();
-        begun.extend((0..members.len()).filter(|&quad| needed[quad]));
+        initial_blocks.clear();
+        initial_blocks.extend((0..block_bodies.len()).filter(|&lane_block| needed[lane_block]));
     }
 
-    /// Who stands beside whom.
-    pub fn members(&self) -> &[Members] {
-        &self.members
+    /// Bodies of each lane block.
+    pub fn block_bodies(&self) -> &[BlockBodies] {
+        &self.block_bodies
     }
 
-    /// Is a link one of the tree? Else it is in a loop, or joins nothing that gives way.
+    /// Whether a joint is an edge of the tree; otherwise it is in a loop, or between bodies that cannot move.
     pub fn is_bridge(&self, link: usize) -> bool {
         self.bridges[link]
     }
 
-    /// Does anything hang on a body?
-    pub fn carries(&self, body: usize) -> bool {
-        !self.hang[body].leaf
+    /// Whether a body has children.
+    pub fn has_children(&self, body: usize) -> bool {
+        !self.nodes[body].leaf
     }
 
-    /// Rows of a body's joint that repeat others at the last factorisation, as a bit set: they carry no multiplier.
+    /// Redundant rows of a body's joint at the last factorisation, as a bit set: their multipliers are 0.
     pub fn redundant(&self, body: usize) -> u32 {
-        self.general[body].as_ref().filter(|_| !self.hang[body].ball).map_or(0, |f| f.redundant)
+        self.general[body].as_ref().filter(|_| !self.nodes[body].ball_joint).map_or(0, |f| f.redundant)
     }
 
-    /// Joint by which a body hangs.
+    /// Joint to the parent; `None` for a floating root and in loops.
     pub fn joint_of(&self, body: usize) -> Option<usize> {
-        self.hang[body].joint
+        self.nodes[body].joint
     }
 
-    /// Where a body's numbers are.
-    pub fn slot(&self, body: usize) -> Slot {
-        self.slots[body]
+    /// Lane of a body.
+    pub fn body_lane(&self, body: usize) -> BodyLane {
+        self.body_lanes[body]
     }
 
-    /// Where the point is by which a body hangs: arms from the centres of its joint's first and second body, world
-    /// axes, m.
+    /// Arms of a body's ball joint, from the centres of mass of the joint's first and second body, world axes, m.
     pub fn arms(&self, body: usize) -> (DVec3, DVec3) {
-        let Slot { quad, lane } = self.slots[body];
-        let arms = self.balls[quad].arms.get(One(lane));
+        let BodyLane { lane_block, lane } = self.body_lanes[body];
+        let arms = self.ball_eliminations[lane_block].arms.get(One(lane));
         let (own, parent) = (arms.own.into(), arms.parent.into());
-        if self.hang[body].first { (own, parent) } else { (parent, own) }
+        if self.nodes[body].first { (own, parent) } else { (parent, own) }
     }
 
-    /// What the point by which a body hangs carries by the last solve, as seen from the body, N.
+    /// Force of a body's ball joint on the body in the last solve, N.
     pub fn force(&self, body: usize) -> DVec3 {
-        let Slot { quad, lane } = self.slots[body];
-        self.points[quad].force.get(One(lane)).into()
+        let BodyLane { lane_block, lane } = self.body_lanes[body];
+        self.points[lane_block].force.get(One(lane)).into()
     }
 
-    /// Bodies on the ways from these to their roots, roots first, into `ways`; `on` lends a flag a body. In loops there are no ways.
-    pub fn paths_into(&self, from: impl Iterator<Item = usize>, on: &mut [bool], ways: &mut Vec<usize>) {
+    /// Bodies on the paths from these to their roots, roots first, into `paths`; `on` is scratch, a flag a body.
+    /// Paths do not continue through loops.
+    pub fn paths_into(&self, from: impl Iterator<Item = usize>, on: &mut [bool], paths: &mut Vec<usize>) {
         on.fill(false);
         for mut body in from {
             while !on[body] {
                 on[body] = true;
-                match self.hang[body].parent {
+                match self.nodes[body].parent {
                     Some(parent) => body = parent,
                     None => break,
                 }
             }
         }
-        ways.clear();
-        ways.extend(self.order.iter().copied().filter(|&body| on[body]));
+        paths.clear();
+        paths.extend(self.order.iter().copied().filter(|&body| on[body]));
     }
 
     /// All bodies, roots first.
@@ -271,7 +284,7 @@ impl Tree {
 }
 
 impl JointRows {
-    /// Lets no row be soft.
+    /// Sets Γ to 0.
     #[inline(always)]
     pub fn harden(&mut self) {
         if std::mem::take(&mut self.soft) {
@@ -295,9 +308,10 @@ impl Default for General {
 }
 
 impl General {
-    /// Eliminates a body by these rows; J_p and X only where there is a parent to carry them.
+    /// Eliminates a body by its joint's rows. `first`: it is the joint's first body. J_p and X are computed only
+    /// where `has_parent`.
     #[inline(always)]
-    pub fn eliminate(&mut self, r: &JointRows, first: bool, hangs: bool) {
+    pub fn eliminate(&mut self, r: &JointRows, first: bool, has_parent: bool) {
         let (jc, jp) = if first { (&r.a, &r.b) } else { (&r.b, &r.a) };
         self.rows = r.rows.min(MAX_ROWS);
         for_rows!(self.rows, rows => {
@@ -308,7 +322,7 @@ impl General {
                 }
             }
             self.redundant = pseudo_inverse(&mut self.k, rows);
-            for k in 0..if hangs { rows } else { 0 } {
+            for k in 0..if has_parent { rows } else { 0 } {
                 (self.jp[k], self.x[k]) = (jp[k], [0.0; 6]);
                 for l in 0..rows {
                     add_scaled(&mut self.x[k], self.k[k][l], &jp[l]);

@@ -55,7 +55,7 @@ impl Manifold {
 
 /// Room for the features of two colliders and what is clipped of them, kept so that nothing allocates in the step.
 #[derive(Clone, Debug, Default)]
-pub struct Corners {
+pub struct ManifoldBuilder {
     a: Vec<DVec3>,
     b: Vec<DVec3>,
     clipped: Vec<DVec3>,
@@ -63,7 +63,7 @@ pub struct Corners {
     points: Vec<ManifoldPoint>,
 }
 
-impl Corners {
+impl ManifoldBuilder {
     /// Room for the largest features of these colliders.
     pub fn new(colliders: &[Collider]) -> Self {
         let most = colliders.iter().map(|c| c.shape.most_corners()).max().unwrap_or(0).max(RIM_CORNERS);
@@ -181,8 +181,8 @@ fn edges([p, q]: [DVec3; 2], [r, s]: [DVec3; 2], n: DVec3, points: &mut Vec<Mani
         return;
     }
     // Shares of the first edge at which the second begins and ends.
-    let share = |x: DVec3| (x - p).dot(u) / u.length_squared();
-    let (from, to) = (share(r), share(s));
+    let parameter = |x: DVec3| (x - p).dot(u) / u.length_squared();
+    let (from, to) = (parameter(r), parameter(s));
     let (low, high) = (from.min(to).max(0.0), from.max(to).min(1.0));
     if high <= low {
         return;

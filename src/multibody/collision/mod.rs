@@ -1,18 +1,18 @@
 //! Where bodies touch: convex colliders, the pairs that can meet, when they do, and at which points.
 
-mod advance;
-mod broad;
+mod broad_phase;
+mod conservative_advancement;
 mod manifold;
-mod nearby;
+mod pair_cache;
 mod pairs;
 mod proximity;
-pub mod reach;
+pub mod reachable_volume;
 mod shape;
 
-pub use advance::{Sweep, TOUCH, TimeOfImpact, time_of_impact};
-pub use broad::BroadPhase;
-pub use manifold::{Corners, MANIFOLD_POINTS, Manifold, ManifoldPoint};
-pub use pairs::{Excluded, Exclusion, Pair, Pairs, Reason, pairs};
+pub use broad_phase::BroadPhase;
+pub use conservative_advancement::{CONTACT_MARGIN, MovingCollider, Sweep, TimeOfImpact, time_of_impact};
+pub use manifold::{MANIFOLD_POINTS, Manifold, ManifoldBuilder, ManifoldPoint};
+pub use pairs::{ColliderPair, ColliderPairs, Excluded, Exclusion, PairExclusion, pairs};
 pub use proximity::{Proximity, proximity};
-pub use reach::Reach;
+pub use reachable_volume::ReachableVolumes;
 pub use shape::{Collider, Shape};

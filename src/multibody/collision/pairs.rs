@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use super::reach::Reach;
+use super::reachable_volume::ReachableVolumes;
 use super::shape::Collider;
 
 /// Two colliders of different bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Pair {
+pub struct ColliderPair {
     /// Index of the first collider; it belongs to a moving body.
     pub a: usize,
     /// Index of the second collider.
@@ -34,7 +34,7 @@ pub enum Excluded {
 
 /// Why two colliders are not a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reason {
+pub enum PairExclusion {
     /// They belong to one body.
     SameBody,
     /// Neither moves.
@@ -45,7 +45,7 @@ pub enum Reason {
     Unreachable(f64),
 }
 
-impl fmt::Display for Reason {
+impl fmt::Display for PairExclusion {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::SameBody => write!(f, "parts of one body"),
@@ -59,36 +59,38 @@ impl fmt::Display for Reason {
 
 /// All pairs of colliders.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Pairs {
+pub struct ColliderPairs {
     /// Those that may meet. Pairs of the same two bodies stand together.
-    pub meet: Vec<Pair>,
+    pub meet: Vec<ColliderPair>,
     /// The others (the first index is the lesser), and why they cannot.
-    pub left_out: Vec<(Pair, Reason)>,
+    pub left_out: Vec<(ColliderPair, PairExclusion)>,
 }
 
 /// Sorts all pairs of colliders into those that may meet and those that cannot.
-pub fn pairs(colliders: &[Collider], excluded: &[Exclusion], reach: &Reach) -> Pairs {
-    let mut out = Pairs::default();
+pub fn pairs(colliders: &[Collider], excluded: &[Exclusion], volumes: &ReachableVolumes) -> ColliderPairs {
+    let mut out = ColliderPairs::default();
     for i in 0..colliders.len() {
         for j in i + 1..colliders.len() {
             let (x, y) = (colliders[i].body, colliders[j].body);
             let between = |e: &&Exclusion| e.bodies == (x, y) || e.bodies == (y, x);
             let reason = if x.is_none() && y.is_none() {
-                Some(Reason::BothStill)
+                Some(PairExclusion::BothStill)
             } else if x == y {
-                Some(Reason::SameBody)
+                Some(PairExclusion::SameBody)
             } else if let Some(exclusion) = excluded.iter().find(between) {
-                Some(Reason::Excluded(exclusion.why))
+                Some(PairExclusion::Excluded(exclusion.why))
             } else {
-                let apart = reach.clearance(i, j);
-                (apart > 0.0).then_some(Reason::Unreachable(apart))
+                let apart = volumes.clearance(i, j);
+                (apart > 0.0).then_some(PairExclusion::Unreachable(apart))
             };
             match reason {
-                Some(reason) => out.left_out.push((Pair { a: i, b: j }, reason)),
-                None => out.meet.push(if x.is_some() { Pair { a: i, b: j } } else { Pair { a: j, b: i } }),
+                Some(reason) => out.left_out.push((ColliderPair { a: i, b: j }, reason)),
+                None => {
+                    out.meet.push(if x.is_some() { ColliderPair { a: i, b: j } } else { ColliderPair { a: j, b: i } })
+                }
             }
         }
     }
-    out.meet.sort_by_key(|pair: &Pair| (colliders[pair.a].body, colliders[pair.b].body));
+    out.meet.sort_by_key(|pair: &ColliderPair| (colliders[pair.a].body, colliders[pair.b].body));
     out
 }

@@ -74,8 +74,8 @@ impl Shape {
 
     /// Farthest distance of the core's points from a point of the node frame, m. The ball turns into itself, so this
     /// is the arm by which turning moves the surface.
-    pub fn reach(&self, from: DVec3) -> f64 {
-        self.core.reach(self.place.inverse_point(from))
+    pub fn bounding_radius(&self, from: DVec3) -> f64 {
+        self.core.bounding_radius(self.place.inverse_point(from))
     }
 
     /// Middle and half extents of a box along the node frame's axes around the whole shape, m.
@@ -126,9 +126,9 @@ fn at(position: DVec3) -> Pose {
 
 /// The frame with Y from one point to another about their middle, and half their distance.
 fn axis(from: DVec3, to: DVec3) -> (Pose, f64) {
-    let way = to - from;
-    let rotation = way.try_normalize().map_or(DQuat::IDENTITY, along);
-    (Pose { rotation, position: 0.5 * (from + to) }, 0.5 * way.length())
+    let offset = to - from;
+    let rotation = offset.try_normalize().map_or(DQuat::IDENTITY, along);
+    (Pose { rotation, position: 0.5 * (from + to) }, 0.5 * offset.length())
 }
 
 /// A shape that collides.
@@ -149,6 +149,6 @@ impl Collider {
     /// (m, node frame).
     pub fn bounds(&self) -> (DVec3, f64) {
         let middle = self.shape.middle();
-        (middle, self.shape.reach(middle))
+        (middle, self.shape.bounding_radius(middle))
     }
 }

@@ -24,10 +24,10 @@ use super::equations::Equations;
 use super::lane_kernels::{LaneKernel, accelerations, put, quad, run_kernel};
 use super::substep_state::{DIFFERENCES, ORDER, SLOWEST, SubstepState, difference, norm};
 use crate::articulation::System;
-use crate::articulation::ball::Twist;
-use crate::articulation::quads::State;
+use crate::articulation::lane_blocks::State;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::lanes::{Lanes, Quat, Real, V3};
+use soffio_math::spatial::SpatialVector;
 
 /// Largest relative error of a step; beyond it Runge–Kutta repeats the step.
 const TOLERANCE: f64 = 1e-7;
@@ -125,7 +125,7 @@ impl MultistepHistory {
 
 /// ∇, ∇² and ∇³ of the last steps.
 #[inline(always)]
-fn differences<L: Lanes>(lanes: L, substep: &SubstepState, indices: [usize; ORDER]) -> [Twist<L::T>; ORDER] {
+fn differences<L: Lanes>(lanes: L, substep: &SubstepState, indices: [usize; ORDER]) -> [SpatialVector<L::T>; ORDER] {
     let at = |ago: usize| substep.differences[indices[ago]].get(lanes);
     let (first, second, third) = (at(0), at(1), at(2));
     let (last, before) = (difference(first, second), difference(second, third));
@@ -148,8 +148,8 @@ fn displaced<T: Real, L: Lanes<T = T>>(
     lanes: L,
     from: &State<T>,
     h: f64,
-    to: Twist<T>,
-    mut displacement: Twist<T>,
+    to: SpatialVector<T>,
+    mut displacement: SpatialVector<T>,
 ) -> State<T> {
     displacement.angular -= from.spin.cross(to.angular) * from.rotation.w.all(h * h / 12.0);
     State {
@@ -180,8 +180,8 @@ impl LaneKernel for Predict<'_> {
         let displacement = [h, h2 / 2.0, h2 / 6.0, h2 / 8.0, h2 * 19.0 / 180.0];
         let linear = [start.velocity, a.linear, d.linear, dd.linear, ddd.linear];
         let angular = [start.spin, a.angular, d.angular, dd.angular, ddd.angular];
-        let to = Twist { linear: sum(linear, velocity), angular: sum(angular, velocity) };
-        let displacement = Twist { linear: sum(linear, displacement), angular: sum(angular, displacement) };
+        let to = SpatialVector { linear: sum(linear, velocity), angular: sum(angular, velocity) };
+        let displacement = SpatialVector { linear: sum(linear, displacement), angular: sum(angular, displacement) };
         let state = displaced(lanes, &start, h, to, displacement);
         put(lanes, system, index, &state);
     }
@@ -211,17 +211,18 @@ impl LaneKernel for Correct<'_> {
         let fourth = difference(third, ddd);
         let velocity = [1.0, h, -h / 2.0, -h / 12.0, -h / 24.0];
         let displacement = [h / 2.0, h / 2.0, -h * h / 12.0];
-        let to = Twist {
+        let to = SpatialVector {
             linear: sum([start.velocity, a.linear, first.linear, second.linear, third.linear], velocity),
             angular: sum([start.spin, a.angular, first.angular, second.angular, third.angular], velocity),
         };
-        let displacement = Twist {
+        let displacement = SpatialVector {
             linear: sum([start.velocity, to.linear, first.linear], displacement),
             angular: sum([start.spin, to.angular, first.angular], displacement),
         };
         let state = displaced(lanes, &start, h, to, displacement);
         let weight = mass.all(ERROR * h);
-        let error = norm(mass, &inertia, &Twist { linear: fourth.linear * weight, angular: fourth.angular * weight });
+        let error =
+            norm(mass, &inertia, &SpatialVector { linear: fourth.linear * weight, angular: fourth.angular * weight });
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &to) + mass * slowest * slowest;
         self.states[index].differences[self.index].put(lanes, &first);
@@ -235,7 +236,7 @@ impl LaneKernel for Correct<'_> {
 mod tests {
     use super::*;
     use crate::articulation::{Anchor, Constraint, ConstraintKind};
-    use crate::collision::{Collider, Reach, Shape, pairs};
+    use crate::collision::{Collider, ReachableVolumes, Shape, pairs};
     use crate::dynamics::forces::Damping;
     use crate::dynamics::{Articulation, Dynamics, Integrator, RollingResistance, Settings, Solver, SurfacePair};
     use soffio_geometry::bodies::MassProperties;
@@ -266,7 +267,7 @@ mod tests {
             limits: &[],
             springs: &[],
             kinematic_bodies: &[],
-            pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
+            pairs: pairs(&colliders, &[], &ReachableVolumes::default()).meet.into_iter().map(surface).collect(),
             colliders: &colliders,
         };
         Dynamics::new(articulation, settings)

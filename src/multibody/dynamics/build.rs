@@ -57,7 +57,7 @@ impl Dynamics {
         };
         let damping = if settings.friction { articulation.damping } else { vec![Damping::default(); n] };
         let springs = Springs::new(articulation.springs, &bodies);
-        let lane_blocks = system.quads().members().len();
+        let lane_blocks = system.lane_blocks().block_bodies().len();
         Self {
             loads: JointLoads::new(&system, &bodies, articulation.constraints, settings.friction),
             integration: Integration::new(settings.integrator, precise, n, lane_blocks),

@@ -89,7 +89,7 @@ impl Equations {
             [Four(damping.map(|rate| rate.linear)), Four(damping.map(|rate| rate.angular))]
         };
         Self {
-            damping: system.quads().members().iter().map(|members| of_bodies(members.bodies)).collect(),
+            damping: system.lane_blocks().block_bodies().iter().map(|members| of_bodies(members.bodies)).collect(),
             kinematic_accelerations: kinematic_bodies.iter().map(|kinematic| (kinematic.body, [0.0; 6])).collect(),
             wrenches: Wrenches::new(damping.len()),
             system,
@@ -104,8 +104,8 @@ impl Equations {
 
     /// Damping rates of a body.
     pub fn damping(&self, body: usize) -> Damping {
-        let slot = self.system.quads().slot(body);
-        let [linear, angular] = self.damping[slot.quad].each_ref().map(|rate| rate.0[slot.lane]);
+        let slot = self.system.lane_blocks().body_lane(body);
+        let [linear, angular] = self.damping[slot.lane_block].each_ref().map(|rate| rate.0[slot.lane]);
         Damping { linear, angular }
     }
 
@@ -116,8 +116,8 @@ impl Equations {
         }
         self.place_kinematic_bodies(bodies, t);
         if self.evaluated == Evaluated::Nothing {
-            self.system.evaluate_lean(bodies);
-            self.system.look_for_gaps();
+            self.system.evaluate_without_trains(bodies);
+            self.system.classify_rows();
             self.system.factor();
         }
         self.solve_forces(bodies, t);
@@ -149,7 +149,7 @@ impl Equations {
         self.system.activity.set_time(t);
         for (kinematic, (body, a)) in self.kinematic_bodies.iter().zip(&mut self.kinematic_accelerations) {
             *a = kinematic.motion.at(t).place(&mut bodies[*body]);
-            self.system.quads_mut().look_at(*body, &bodies[*body]);
+            self.system.lane_blocks_mut().load_body(*body, &bodies[*body]);
         }
     }
 
@@ -161,21 +161,21 @@ impl Equations {
             let (displacement, rotation) = (h * body.velocity, h * body.angular_velocity);
             body.displace(displacement, rotation);
         }
-        self.system.quads_mut().look(bodies);
+        self.system.lane_blocks_mut().load(bodies);
     }
 
     /// Closes the joints in position and velocity; leaves the system factored there.
     pub fn project(&mut self, bodies: &mut [RigidBody]) {
-        self.system.quads_mut().look(bodies);
+        self.system.lane_blocks_mut().load(bodies);
         self.close_joints(bodies, JointClosing { factor: FactorUse::Refactor, velocities: true });
         self.evaluated = Evaluated::Factor;
     }
 
     /// Takes over the state of bodies whose joints are closed, and whose factor is reused.
     pub fn take_over_state(&mut self, bodies: &mut [RigidBody]) {
-        self.system.quads_mut().look(bodies);
-        self.evaluate_quads(bodies);
-        self.system.look_for_gaps();
+        self.system.lane_blocks_mut().load(bodies);
+        self.evaluate_lane_blocks(bodies);
+        self.system.classify_rows();
         self.evaluated = Evaluated::Factor;
     }
 
@@ -187,7 +187,7 @@ impl Equations {
 
     /// Closes the joints at the lane blocks' state, and writes the bodies.
     fn close_joints(&mut self, bodies: &mut [RigidBody], JointClosing { factor, velocities }: JointClosing) {
-        self.evaluate_quads(bodies);
+        self.evaluate_lane_blocks(bodies);
         if factor == FactorUse::Refactor {
             self.system.factor();
         }
@@ -195,20 +195,20 @@ impl Equations {
             run_kernel(&mut self.system, WriteBack { bodies });
             return;
         }
-        self.system.look_for_gaps();
-        let apart = self.system.largest_lean_error();
+        self.system.classify_rows();
+        let apart = self.system.largest_error_without_trains();
         self.system.solve_displacement();
-        self.system.close_quads();
+        self.system.close_lane_blocks();
         if apart > COARSE {
             // Newton's error is the square of the gap.
-            self.system.quads_mut().turn();
-            self.evaluate_quads(bodies);
+            self.system.lane_blocks_mut().update_frames();
+            self.evaluate_lane_blocks(bodies);
             self.system.factor();
             self.system.solve_displacement();
-            self.system.close_quads();
+            self.system.close_lane_blocks();
         }
         if velocities {
-            self.system.solve_velocity_quads(bodies);
+            self.system.solve_velocity_lane_blocks(bodies);
             run_kernel(&mut self.system, AddVelocityChange { bodies });
         } else {
             run_kernel(&mut self.system, WriteBack { bodies });
@@ -216,14 +216,14 @@ impl Equations {
     }
 
     /// Evaluates the rows at the lane blocks' present state.
-    fn evaluate_quads(&mut self, bodies: &mut [RigidBody]) {
+    fn evaluate_lane_blocks(&mut self, bodies: &mut [RigidBody]) {
         self.write_back_if_needed(bodies);
-        self.system.evaluate_quads(bodies);
+        self.system.evaluate_lane_blocks(bodies);
     }
 
     /// Writes the bodies from the lane blocks, where rows or springs read them.
     fn write_back_if_needed(&mut self, bodies: &mut [RigidBody]) {
-        if self.system.asks_bodies() || !self.springs.is_empty() {
+        if self.system.reads_bodies() || !self.springs.is_empty() {
             run_kernel(&mut self.system, WriteBack { bodies });
         }
     }
@@ -240,7 +240,7 @@ impl Equations {
 
     /// Factors the joints at the bodies' present poses, for impulses.
     pub fn prepare_impulses(&mut self, bodies: &[RigidBody]) {
-        self.system.evaluate_lean(bodies);
+        self.system.evaluate_without_trains(bodies);
         self.system.factor();
         self.evaluated = Evaluated::Nothing;
     }

@@ -5,12 +5,12 @@
 //! spring   F = k (l − l₀) + c l̇       along the line of its two points, or as a torque about an axis
 //! ```
 
-use crate::articulation::ball::Twist;
-use crate::articulation::rows::Scene;
+use crate::articulation::rows::BodyStates;
 use crate::articulation::rows::coupling::Gauge;
-use crate::articulation::{Activity, Anchor, Spring, SpringKind};
+use crate::articulation::{Activity, Anchor, Load, LoadKind, Spring, SpringKind};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::lanes::{Real, V3};
+use soffio_math::spatial::SpatialVector;
 use soffio_math::spatial::{Sym3, matrix};
 use soffio_math::spatial::{Vec6, add_scaled, vec6};
 use soffio_math::{DMat3, DVec3};
@@ -32,7 +32,7 @@ pub struct BodyLanes<T> {
     /// World inertia, kg m².
     pub inertia: Sym3<T>,
     /// Velocities, m/s and rad/s.
-    pub velocity: Twist<T>,
+    pub velocity: SpatialVector<T>,
     /// Linear damping rate, 1/s.
     pub linear_damping: T,
     /// Angular damping rate, 1/s.
@@ -41,11 +41,11 @@ pub struct BodyLanes<T> {
 
 /// Wrench of gravity (m/s²), damping and the gyroscopic torque on bodies, N and N m.
 #[inline(always)]
-pub fn body_wrench<T: Real>(bodies: &BodyLanes<T>, gravity: DVec3) -> Twist<T> {
-    let BodyLanes { mass, inertia, velocity: Twist { linear: velocity, angular: spin }, .. } = *bodies;
+pub fn body_wrench<T: Real>(bodies: &BodyLanes<T>, gravity: DVec3) -> SpatialVector<T> {
+    let BodyLanes { mass, inertia, velocity: SpatialVector { linear: velocity, angular: spin }, .. } = *bodies;
     let gravity = V3 { x: mass.all(gravity.x), y: mass.all(gravity.y), z: mass.all(gravity.z) };
     let momentum = inertia.mul(spin);
-    Twist {
+    SpatialVector {
         linear: (gravity - velocity * bodies.linear_damping) * mass,
         angular: -spin.cross(momentum) - momentum * bodies.angular_damping,
     }
@@ -158,19 +158,19 @@ impl Springs {
         for k in 0..self.activity.fragile().len() {
             let index = self.activity.fragile()[k];
             let (force, _) = self.force(index, bodies, t);
-            self.activity.mended(index, true);
+            self.activity.set_reclosed(index, true);
             let load = match self.springs[index].kind {
-                SpringKind::Linear { .. } => (force.abs(), 0.0),
-                SpringKind::Angular { .. } => (0.0, force.abs()),
+                SpringKind::Linear { .. } => Load { force: force.abs(), torque: 0.0 },
+                SpringKind::Angular { .. } => Load { force: 0.0, torque: force.abs() },
             };
-            if self.activity.overloaded(index, load, false) {
+            if self.activity.overloaded(index, load, LoadKind::Continuous) {
                 self.activity.break_at(index, t);
             }
         }
     }
 
     /// Counts full turns up to this state; to be called once a step.
-    pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+    pub fn count_revolutions(&mut self, bodies: &[RigidBody]) {
         self.gauges.iter_mut().flatten().for_each(|gauge| gauge.count(bodies));
     }
 
@@ -181,7 +181,7 @@ impl Springs {
             .map(|index| {
                 let spring = &self.springs[index];
                 let stretch = self.state(index, bodies, &frames).value - spring.rest.at(t).value;
-                0.5 * self.activity.share(index) * spring.stiffness.at(t).value * stretch * stretch
+                0.5 * self.activity.activation(index) * spring.stiffness.at(t).value * stretch * stretch
             })
             .sum()
     }
@@ -198,11 +198,11 @@ impl Springs {
         let rest = spring.rest.at(t);
         let pull = spring.stiffness.at(t).value * (state.value - rest.value)
             + spring.damping.at(t).value * (state.rate - rest.rate);
-        (self.activity.share(index) * pull, state)
+        (self.activity.activation(index) * pull, state)
     }
 
     fn state(&self, index: usize, bodies: &[RigidBody], frames: &[DMat3]) -> SpringState {
-        let scene = Scene { bodies, frames, time: 0.0 };
+        let scene = BodyStates { bodies, frames, time: 0.0 };
         match (&self.springs[index].kind, &self.gauges[index]) {
             (SpringKind::Linear { a, b }, _) => {
                 let (p, q) = (scene.point(a), scene.point(b));

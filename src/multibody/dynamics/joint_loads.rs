@@ -32,7 +32,7 @@ impl JointLoads {
 
     /// Records the loads of the last solve.
     pub fn record(&mut self, system: &System) {
-        system.weigh(&mut self.loads);
+        system.record_joint_loads(&mut self.loads);
     }
 
     /// Sets all loads to zero.
@@ -62,7 +62,7 @@ fn tension_stiffness(system: &System, bodies: &[RigidBody]) -> Vec<f64> {
     let of_joint = |index: usize| {
         let (arm_a, arm_b) = system.arms(index);
         let link = system.joints()[index].link;
-        let own = |body: usize, arm| if system.driven()[body] { 0.0 } else { stiffness(body, arm) };
+        let own = |body: usize, arm| if system.kinematic()[body] { 0.0 } else { stiffness(body, arm) };
         own(link.a, arm_a).max(link.b.map_or(0.0, |b| own(b, arm_b)))
     };
     (0..system.joints().len()).map(of_joint).collect()

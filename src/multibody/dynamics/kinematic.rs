@@ -19,7 +19,7 @@
 //! span from the ω and ω̇ of its key. Velocities and accelerations have no jumps.
 
 use soffio_geometry::bodies::RigidBody;
-use soffio_math::function::{Span, ease, knot, neighbours, quintic, span};
+use soffio_math::function::{Span, easing, knot, neighbours, quintic, span};
 use soffio_math::spatial::{Vec6, vec6};
 use soffio_math::{DQuat, DVec3, Pose, rotation, rotation_vector, sincos};
 use soffio_math::{Interpolation, Jet3};
@@ -88,7 +88,7 @@ impl KeyframeMotion {
             return self.spline(found);
         }
         let ((t0, from), (t1, to)) = (self.keys[found.key], self.keys[found.key + 1]);
-        let Jet3 { value, rate, acceleration } = ease(self.interpolation, t1 - t0, found.since);
+        let Jet3 { value, rate, acceleration } = easing(self.interpolation, t1 - t0, found.since);
         let displacement = to.position - from.position;
         let rotation_total = rotation_between(from.rotation, to.rotation);
         KinematicState {

@@ -9,11 +9,11 @@ use fearless_simd::{Simd, dispatch};
 use super::forces::{self, BodyLanes};
 use super::substep_state::{Rate, SLOWEST, SubstepState, advance, difference, norm};
 use crate::articulation::System;
-use crate::articulation::ball::Twist;
-use crate::articulation::quads::{Members, Quad, State};
+use crate::articulation::lane_blocks::{BlockBodies, LaneBlock, State};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::lanes::{All, Four, Lanes, Real, V3};
+use soffio_math::spatial::SpatialVector;
 use soffio_math::spatial::Vec6;
 
 /// An operation on every lane block with a body that is awake.
@@ -24,34 +24,34 @@ pub(super) trait LaneKernel {
 
 /// Runs a kernel on all lane blocks of a system.
 pub(super) fn run_kernel(system: &mut System, mut kernel: impl LaneKernel) {
-    dispatch!(system.quads().level(), simd => run_kernel_in(simd, system, &mut kernel));
+    dispatch!(system.lane_blocks().level(), simd => run_kernel_in(simd, system, &mut kernel));
 }
 
 #[inline(always)]
 fn run_kernel_in<S: Simd>(simd: S, system: &mut System, kernel: &mut impl LaneKernel) {
-    for k in 0..system.quads().moving().len() {
-        let index = system.quads().moving()[k];
+    for k in 0..system.lane_blocks().awake().len() {
+        let index = system.lane_blocks().awake()[k];
         kernel.run(All(simd), system, index);
     }
 }
 
 /// A lane block, and which bodies it holds.
 #[inline(always)]
-pub(super) fn quad(system: &System, index: usize) -> (Members, &Quad) {
-    let quads = system.quads();
-    (quads.members()[index], &quads.all()[index])
+pub(super) fn quad(system: &System, index: usize) -> (BlockBodies, &LaneBlock) {
+    let quads = system.lane_blocks();
+    (quads.block_bodies()[index], &quads.all()[index])
 }
 
 /// The last accelerations of a block.
 #[inline(always)]
-pub(super) fn accelerations<L: Lanes>(lanes: L, system: &System, members: &Members) -> Twist<L::T> {
-    Twist::gather(lanes, |k| &system.a[members.bodies[k]])
+pub(super) fn accelerations<L: Lanes>(lanes: L, system: &System, members: &BlockBodies) -> SpatialVector<L::T> {
+    SpatialVector::gather(lanes, |k| &system.a[members.bodies[k]])
 }
 
 /// Sets the state of a block.
 #[inline(always)]
 pub(super) fn put<L: Lanes>(lanes: L, system: &mut System, index: usize, state: &State<L::T>) {
-    system.quads_mut().all_mut()[index].put(lanes, state);
+    system.lane_blocks_mut().all_mut()[index].put(lanes, state);
 }
 
 /// Saves the bodies' state at the start of a substep.
@@ -112,7 +112,7 @@ impl LaneKernel for AddVelocityChange<'_> {
         state.velocity += by.linear;
         state.spin += by.angular;
         state.put(lanes, &members, self.bodies);
-        let quad = &mut system.quads_mut().all_mut()[index].state;
+        let quad = &mut system.lane_blocks_mut().all_mut()[index].state;
         quad.velocity.put(lanes, state.velocity);
         quad.spin.put(lanes, state.spin);
     }
@@ -137,7 +137,8 @@ impl LaneKernel for Stage<'_> {
         let (rate, mut mean) = if self.first {
             let zero = start.velocity.x.all(0.0);
             let none = V3 { x: zero, y: zero, z: zero };
-            let mean = Rate { velocity: none, sigma: none, acceleration: Twist { linear: none, angular: none } };
+            let mean =
+                Rate { velocity: none, sigma: none, acceleration: SpatialVector { linear: none, angular: none } };
             (Rate::of(start.velocity, start.spin, none, a), mean)
         } else {
             let (velocity, spin) = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
@@ -201,15 +202,17 @@ impl LaneKernel for Estimate<'_> {
         let substep = &self.states[index];
         let (last, previous) = (substep.last_acceleration.get(lanes), substep.previous_estimate.get(lanes));
         let (per_cube, factor) = (mass.all(self.per_cube), mass.all(self.scale));
-        let estimate =
-            Twist { linear: (a.linear - last.linear) * per_cube, angular: (a.angular - last.angular) * per_cube };
+        let estimate = SpatialVector {
+            linear: (a.linear - last.linear) * per_cube,
+            angular: (a.angular - last.angular) * per_cube,
+        };
         let mut change = estimate;
         if self.has_previous {
             change.linear -= previous.linear;
             change.angular -= previous.angular;
         }
-        change = Twist { linear: change.linear * factor, angular: change.angular * factor };
-        let now = Twist { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) };
+        change = SpatialVector { linear: change.linear * factor, angular: change.angular * factor };
+        let now = SpatialVector { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) };
         let error = norm(mass, &inertia, &change);
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
@@ -233,17 +236,17 @@ impl LaneKernel for ApplyForces<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
         let (members, quad) = quad(system, index);
-        let external = Twist::gather(lanes, |k| &self.external[members.bodies[k]]);
+        let external = SpatialVector::gather(lanes, |k| &self.external[members.bodies[k]]);
         let [linear, angular] = self.damping[index].each_ref().map(|rate| lanes.get(rate));
         let bodies = BodyLanes {
             mass: lanes.get(&quad.mass),
             inertia: quad.inertia.get(lanes),
-            velocity: Twist { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) },
+            velocity: SpatialVector { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) },
             linear_damping: linear,
             angular_damping: angular,
         };
         let own = forces::body_wrench(&bodies, self.gravity);
-        let total = Twist { linear: own.linear + external.linear, angular: own.angular + external.angular };
+        let total = SpatialVector { linear: own.linear + external.linear, angular: own.angular + external.angular };
         let b = &mut system.b;
         lanes.scatter(members.count, &total.numbers(), |lane, wrench| b[members.bodies[lane]] = *wrench);
     }
@@ -294,7 +297,8 @@ impl LaneKernel for Mean<'_> {
         let start = self.states[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let none = V3 { x: zero, y: zero, z: zero };
-        let mut mean = Rate { velocity: none, sigma: none, acceleration: Twist { linear: none, angular: none } };
+        let mut mean =
+            Rate { velocity: none, sigma: none, acceleration: SpatialVector { linear: none, angular: none } };
         for (rates, weight) in self.stages.iter().zip(self.weights) {
             mean.add(weight, &rates[index].get(lanes));
         }

@@ -15,9 +15,9 @@
 //! Angles and displacements are those of couplings (`rows/coupling.rs`). Full turns are counted by following an angle, which
 //! changes by less than π in each substep.
 
-use crate::articulation::rows::coupling::{Gauge, Poses, aim, place};
+use crate::articulation::rows::coupling::{Gauge, Poses, world_direction, world_point};
 use crate::articulation::{Limit, LimitKind, Measure};
-use crate::collision::{Sweep, TOUCH};
+use crate::collision::{CONTACT_MARGIN, Sweep};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::vec6;
 use soffio_math::{DVec3, Pose, acos};
@@ -178,11 +178,14 @@ impl Limits {
         let Bound { limit, end, .. } = self.bounds[bound];
         let (value, min, max) = match &self.limits[limit].kind {
             LimitKind::Tilt { a, b, max } => {
-                let cosine = aim(a.body, a.direction, poses).dot(aim(b.body, b.direction, poses));
+                let cosine =
+                    world_direction(a.body, a.direction, poses).dot(world_direction(b.body, b.direction, poses));
                 (acos(cosine.clamp(-1.0, 1.0)), 0.0, *max)
             }
             LimitKind::Range { min, max, .. } => (self.read(limit, 0, poses), *min, *max),
-            LimitKind::Distance { a, b, min, max } => ((place(a, poses) - place(b, poses)).length(), *min, *max),
+            LimitKind::Distance { a, b, min, max } => {
+                ((world_point(a, poses) - world_point(b, poses)).length(), *min, *max)
+            }
             LimitKind::Play { terms, play } => {
                 let part = |k: usize| terms[k].coefficient * self.read(limit, k, poses);
                 (part(0) + part(1), -0.5 * play, 0.5 * play)
@@ -217,14 +220,15 @@ impl Limits {
         let mut row = JacobianRow::default();
         let point = match &self.limits[limit].kind {
             LimitKind::Tilt { a, b, .. } => {
-                let across = aim(b.body, b.direction, bodies).cross(aim(a.body, a.direction, bodies));
+                let across =
+                    world_direction(b.body, b.direction, bodies).cross(world_direction(a.body, a.direction, bodies));
                 let block = vec6(DVec3::ZERO, across.normalize_or_zero());
                 row.add(two[0], sign, &block);
                 row.add(two[1], -sign, &block);
                 middle(two[0])
             }
             LimitKind::Distance { a, b, .. } => {
-                let (p, q) = (place(a, bodies), place(b, bodies));
+                let (p, q) = (world_point(a, bodies), world_point(b, bodies));
                 let along = (p - q).normalize_or_zero();
                 let block = |body, at: DVec3| vec6(along, (at - middle(body)).cross(along));
                 row.add(two[0], sign, &block(two[0], p));
@@ -235,7 +239,7 @@ impl Limits {
                 self.add_gauge(limit, 0, sign, bodies, &mut row);
                 match measure {
                     Measure::Angle { .. } => middle(two[0]),
-                    Measure::Way { point, .. } => place(point, bodies),
+                    Measure::Displacement { point, .. } => world_point(point, bodies),
                 }
             }
             LimitKind::Play { terms, .. } => {
@@ -268,7 +272,7 @@ impl Limits {
             return None;
         }
         let start = self.value(bound, before);
-        if start <= TOUCH {
+        if start <= CONTACT_MARGIN {
             let rate = |bodies: &[RigidBody]| self.row(bound, bodies).row.rate(bodies);
             if rate(before) < -ROUNDING {
                 return Some(0.0);

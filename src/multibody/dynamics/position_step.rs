@@ -51,13 +51,13 @@ impl Dynamics {
         self.substeps = 1;
         let middle = self.time + 0.5 * dt;
         let equations = &mut self.equations;
-        let activation_changed =
-            equations.system.activity.set_shares(middle) | equations.springs.activity.set_shares(middle);
+        let activation_changed = equations.system.activity.update_activations(middle)
+            | equations.springs.activity.update_activations(middle);
         equations.wrenches.total.copy_from_slice(external);
         equations.springs.add_forces(&self.bodies, self.time, &mut equations.wrenches.total);
         let already = impacts.len();
         if let Some(without_trains) = &mut equations.without_trains {
-            without_trains.exchange_run(&mut equations.system);
+            without_trains.swap_history(&mut equations.system);
         }
         mover(PositionStep {
             bodies: &mut self.bodies,
@@ -72,7 +72,7 @@ impl Dynamics {
             impacts,
         });
         if let Some(without_trains) = &mut equations.without_trains {
-            without_trains.exchange_run(&mut equations.system);
+            without_trains.swap_history(&mut equations.system);
         }
         equations.springs.break_overloaded(&self.bodies, self.time + dt);
         let lost = self.end_step(dt, already, impacts);

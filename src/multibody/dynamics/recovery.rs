@@ -1,6 +1,6 @@
 //! Validation of the bodies' numbers, and recovery from diverged ones.
 
-use crate::articulation::quads::{Members, State};
+use crate::articulation::lane_blocks::{BlockBodies, State};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_math::lanes::One;
@@ -47,7 +47,7 @@ impl Recovery {
         let fault = bodies.iter().position(|body| !is_valid(body))?;
         // An invalid body has already pulled at its neighbours, so all are put back.
         for (body, before) in bodies.iter_mut().zip(&self.before) {
-            before.put(One(0), &Members::first(0), std::slice::from_mut(body));
+            before.put(One(0), &BlockBodies::first(0), std::slice::from_mut(body));
             (body.velocity, body.angular_velocity) = (DVec3::ZERO, DVec3::ZERO);
         }
         Some(fault)

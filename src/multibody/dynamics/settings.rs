@@ -1,6 +1,6 @@
 //! Description of an articulation, and settings of its motion.
 
-pub use crate::articulation::Method as Solver;
+pub use crate::articulation::LinearSolver as Solver;
 use crate::articulation::{Constraint, Limit, Spring};
 use crate::collision::Collider;
 use soffio_geometry::bodies::RigidBody;

@@ -20,7 +20,7 @@
 //! Bodies under a function of time never sleep, nor those connected to a kinematic body or resting on one. Waking spreads through
 //! resting contacts. The remaining energy counts as work of the contacts.
 
-use crate::articulation::{Constraint, ConstraintKind, Groups, Limit, Spring};
+use crate::articulation::{Constraint, ConstraintKind, DisjointSets, Limit, Spring};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::Function;
 use soffio_math::spatial::{Vec6, angular, linear};
@@ -39,9 +39,9 @@ pub(super) struct Sleep {
     /// Some body may ever sleep.
     possible: bool,
     /// Bodies that constraints, limits and springs connect.
-    connected: Groups,
+    connected: DisjointSets,
     /// The same and resting contacts.
-    islands: Groups,
+    islands: DisjointSets,
     is_kinematic: Vec<bool>,
     /// ρ², m².
     gyration: Vec<f64>,
@@ -74,7 +74,7 @@ impl Sleep {
         possible: bool,
     ) -> Self {
         let n = bodies.len();
-        let mut connected = Groups::new(n);
+        let mut connected = DisjointSets::new(n);
         let mut never_sleeps = vec![false; n];
         let mut connect = |acts_on: &dyn Fn(usize) -> bool, changes: bool| {
             let bodies = || (0..n).filter(|&body| !is_kinematic[body] && acts_on(body));

@@ -12,6 +12,7 @@ use super::recovery::Recovery;
 use super::settings::Settings;
 use super::sleep::Sleep;
 use super::work_budget::WorkBudget;
+use crate::articulation::LoadKind;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
@@ -372,7 +373,7 @@ impl Dynamics {
 
     /// Shortest substep of a step of `dt` seconds, s.
     fn shortest_substep(&self, dt: f64) -> f64 {
-        dt / if self.equations.system.gathers() { LIMITS.count_open } else { LIMITS.count }
+        dt / if self.equations.system.is_stabilising() { LIMITS.count_open } else { LIMITS.count }
     }
 
     /// Joints, or the forces on them, have changed: all bodies wake, and the multistep history ends.
@@ -384,7 +385,8 @@ impl Dynamics {
 
     /// Sets the activation of constraints and springs at the time `t`.
     fn set_activations(&mut self, t: f64) {
-        if self.equations.system.activity.set_shares(t) | self.equations.springs.activity.set_shares(t) {
+        if self.equations.system.activity.update_activations(t) | self.equations.springs.activity.update_activations(t)
+        {
             self.joints_changed();
         }
     }
@@ -398,10 +400,10 @@ impl Dynamics {
             if system.constraint_sleeps(index) {
                 continue;
             }
-            let load = system.carried(index);
-            let together = system.is_together(index);
-            system.activity.mended(index, together);
-            if system.activity.overloaded(index, load, false) {
+            let load = system.constraint_load(index);
+            let together = system.is_closed(index);
+            system.activity.set_reclosed(index, together);
+            if system.activity.overloaded(index, load, LoadKind::Continuous) {
                 system.activity.break_at(index, t);
                 self.joints_changed();
             }
@@ -414,7 +416,7 @@ impl Dynamics {
         for activity in [&mut self.equations.system.activity, &mut self.equations.springs.activity] {
             activity.breaks.clear();
             activity.fired.clear();
-            activity.breathe(before, now, self.time);
+            activity.trigger_by_breath(before, now, self.time);
         }
         self.breath.before = now;
     }
@@ -425,8 +427,8 @@ impl Dynamics {
         let Equations { system, springs, .. } = &mut self.equations;
         for impact in &impacts[already..] {
             for body in impact.bodies.into_iter().flatten() {
-                system.activity.hit(body, impact.impulse, self.time + impact.time);
-                springs.activity.hit(body, impact.impulse, self.time + impact.time);
+                system.activity.trigger_by_impact(body, impact.impulse, self.time + impact.time);
+                springs.activity.trigger_by_impact(body, impact.impulse, self.time + impact.time);
             }
         }
         self.time += dt;
@@ -435,8 +437,8 @@ impl Dynamics {
             // The step did not happen, nor did its impacts.
             impacts.truncate(already);
         }
-        self.equations.system.count_turns(&self.bodies);
-        self.equations.springs.count_turns(&self.bodies);
+        self.equations.system.count_revolutions(&self.bodies);
+        self.equations.springs.count_revolutions(&self.bodies);
         lost
     }
 
@@ -453,7 +455,7 @@ impl Dynamics {
 
     /// Starts constrained dynamics anew from the bodies' present state.
     pub(super) fn restart(&mut self) {
-        self.equations.system.begin_trains(&self.bodies);
+        self.equations.system.start_trains(&self.bodies);
         self.contacts.restart(&self.bodies);
         self.contacts.find_resting_contacts(&self.bodies);
         self.loads.clear();

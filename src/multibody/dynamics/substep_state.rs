@@ -8,9 +8,9 @@
 //! σ̇ = ω − ½ σ×ω + k σ×(σ×ω)          k = (1 − (θ/2) cot(θ/2))/θ² = 1/12 + θ²/720 + θ⁴/30240 + …,  θ = |σ|
 //! ```
 
-use crate::articulation::ball::Twist;
-use crate::articulation::quads::State;
+use crate::articulation::lane_blocks::State;
 use soffio_math::lanes::{Four, Lanes, Quat, Real, V3};
+use soffio_math::spatial::SpatialVector;
 use soffio_math::spatial::Sym3;
 
 /// Differences of accelerations that Adams' method extrapolates.
@@ -45,13 +45,13 @@ pub(super) struct Rate<T> {
     pub velocity: V3<T>,
     /// σ̇, rad/s.
     pub sigma: V3<T>,
-    pub acceleration: Twist<T>,
+    pub acceleration: SpatialVector<T>,
 }
 
 impl<T: Real> Rate<T> {
     /// The rate of a body with these velocities and accelerations, rotated by `sigma` since the substep began.
     #[inline(always)]
-    pub fn of(velocity: V3<T>, spin: V3<T>, sigma: V3<T>, acceleration: Twist<T>) -> Self {
+    pub fn of(velocity: V3<T>, spin: V3<T>, sigma: V3<T>, acceleration: SpatialVector<T>) -> Self {
         let across = sigma.cross(spin);
         let x = sigma.dot(sigma);
         let k = x.all(1.0 / 12.0) + x * (x.all(1.0 / 720.0) + x / x.all(30240.0));
@@ -100,23 +100,23 @@ pub(super) struct SubstepState {
     /// σ at the present stage, rad.
     pub sigma: V3<Four>,
     /// a at its start.
-    pub start_acceleration: Twist<Four>,
+    pub start_acceleration: SpatialVector<Four>,
     /// Change of a within the last substeps (`adams.rs`).
-    pub differences: [Twist<Four>; DIFFERENCES],
+    pub differences: [SpatialVector<Four>; DIFFERENCES],
     /// a of the last stage.
-    pub last_acceleration: Twist<Four>,
+    pub last_acceleration: SpatialVector<Four>,
     /// (k₅ − k₄)/h³ of the substep before.
-    pub previous_estimate: Twist<Four>,
+    pub previous_estimate: SpatialVector<Four>,
 }
 
 /// a − b.
 #[inline(always)]
-pub(super) fn difference<T: Real>(a: Twist<T>, b: Twist<T>) -> Twist<T> {
-    Twist { linear: a.linear - b.linear, angular: a.angular - b.angular }
+pub(super) fn difference<T: Real>(a: SpatialVector<T>, b: SpatialVector<T>) -> SpatialVector<T> {
+    SpatialVector { linear: a.linear - b.linear, angular: a.angular - b.angular }
 }
 
 /// v·M v.
 #[inline(always)]
-pub(super) fn norm<T: Real>(mass: T, inertia: &Sym3<T>, v: &Twist<T>) -> T {
+pub(super) fn norm<T: Real>(mass: T, inertia: &Sym3<T>, v: &SpatialVector<T>) -> T {
     mass * v.linear.dot(v.linear) + v.angular.dot(inertia.mul(v.angular))
 }

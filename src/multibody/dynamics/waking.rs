@@ -15,7 +15,7 @@ impl Dynamics {
     pub(super) fn fall_asleep(&mut self, dt: f64) {
         let Self { sleep, contacts, equations, bodies, .. } = self;
         sleep.record(dt, bodies, &equations.wrenches.given);
-        let changing = equations.system.gathers() || contacts.clutches().slipping().next().is_some();
+        let changing = equations.system.is_stabilising() || contacts.clutches().slipping().next().is_some();
         if changing || !sleep.fall_asleep(contacts.resting_bodies()) {
             return;
         }

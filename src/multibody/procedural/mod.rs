@@ -1,259 +1,274 @@
-//! Procedural motion: places first, forces never (method 3.1 to 3.6). A figure can be dragged anywhere without a spring
-//! that could be too stiff, and a step costs the same whatever happens.
+//! Position-based motion (method 3.1 to 3.6): positions are solved first and velocities derived from them. It has no
+//! stiff forces, so a body can be dragged anywhere, and a step has a bounded cost.
 //!
-//! Each step has two stages. The **update** moves each body as if it were alone,
+//! Each step has two stages. The **update** moves each body as if it were free,
 //!
 //! ```text
 //! x_{k+1} = x_k + κ (x_k − x_{k−1}) + a Δt²        κ ∈ [0, 1],   (x_k − x_{k−1})/Δt kept as the velocity
 //! ```
 //!
-//! and turns it likewise; driven bodies go where they are driven. The **adjustment** brings the bodies back to where the
-//! joints hold, by one of two methods:
+//! and rotates it likewise; kinematic bodies follow their motion. The **adjustment** closes the joints again, by one
+//! of two solvers:
 //!
-//! * [`Method::Compulsive`], the source's: a rule for two objects (`rule.rs`), one joint (`pair.rs`), grouping and
-//!   relaxation along the figure (`walk.rs`, `compulsive.rs`). Visibly plausible, the more so the farther it is dragged;
-//!   under gravity alone it swings too little, as small ways turn nothing.
-//! * [`Method::TreeSolve`]: all joints at once, least in kinetic energy (`tree.rs`): each displacement of the update
-//!   counts with its mass and inertia, as in the laws. Of first order in Δt.
+//! * [`PositionSolver::Relaxation`], the source's "compulsive motion": joint-by-joint relaxation, a Gauss–Seidel
+//!   sweep akin to CCD and FABRIK, with a rule for two bodies (`two_body_rule.rs`), one joint (`joint_closure.rs`),
+//!   and grouping along the mechanism (`walk.rs`, `relaxation.rs`). It is visibly plausible for drags; under gravity
+//!   alone it swings too little, as small displacements rotate nothing.
+//! * [`PositionSolver::TreeSolve`]: Newton's method on all joints at once, of least kinetic energy (`tree_solve.rs`),
+//!   first order in Δt.
 //!
-//! Then what met is moved out and thrown back (`touch.rs`), and what rests slides, rolls and spins on it (`sphere.rs`): balls
-//! by the source's slip ratio where the method is the source's, else by Coulomb's law. Where the way is from is where the velocity comes from:
-//! v = (x_{k+1} − x_k)/Δt, so that the laws can go on from any step, and this from the laws.
+//! Then penetrating contacts are separated and impulses applied (`contact_response.rs`); resting contacts slide, roll
+//! and spin (`resting_friction.rs`). Balls follow the source's slip ratio with Relaxation, Coulomb's law with
+//! TreeSolve. Velocities are v = (x_{k+1} − x_k)/Δt, so constrained dynamics can continue from any step, and vice
+//! versa.
 //!
-//! κ is 1/(1 + c Δt) with the body's damping rate c, times the figure's own [`Settings::retention`]. Breaking by load and
-//! the friction of pivots ask for forces and are not there; windows, triggers, breaths and springs act as always.
+//! κ is 1/(1 + c Δt) with the body's damping rate c, times [`Settings::retention`]. Breaking by load and pivot
+//! friction need forces and are not included; windows, triggers, breaths and springs act as always.
 
-mod compulsive;
-mod fours;
-mod grip;
-mod pair;
-pub mod rule;
+mod contact_response;
+mod grab;
+mod joint_closure;
+mod lane_kernels;
+mod relaxation;
+mod resting_friction;
 mod settings;
-mod sphere;
-mod touch;
-mod tree;
+mod tree_solve;
+pub mod two_body_rule;
 pub mod walk;
 
 use crate::dynamics::{Dynamics, Impact, PositionStep};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
-use compulsive::Compulsive;
-pub use compulsive::MOST_ROUNDS;
-use fours::Fours;
-pub use fours::{SPEED_KEPT, SPIN_KEPT};
-pub use grip::{Grip, MOST_GRIPS, REACHED, Reach};
-pub use settings::{CONTROL, Method, Settings};
-use touch::Touches;
-use tree::TreeSolve;
-pub use tree::{MOST_LED, MOST_PASSES};
+use contact_response::{ContactResponse, FrictionLaw, ResponseStep, SeparationPass};
+pub use grab::{GrabTarget, MAX_GRABS, POSITION_TOLERANCE, SolveOutcome, SolveReport};
+use lane_kernels::LaneKernels;
+pub use lane_kernels::{MAX_SPEED, MAX_SPIN};
+pub use relaxation::MAX_SWEEPS;
+use relaxation::Relaxation;
+pub use settings::{DEFAULT_CONTROL, PositionSolver, Settings};
+use tree_solve::TreeSolve;
+pub use tree_solve::{MAX_FREE_PASSES, MAX_GRAB_PASSES};
 
-/// Passes that bring grips this near have done what tangents could not, m.
-const NEAR: f64 = 0.02;
-/// Rounds of moving out in one step at most.
-const MOST_PUSHES: usize = 6;
-/// Moves a figure by places. Nothing here allocates once the largest number of grips has been used.
+/// Grab error below which a failed Newton solve is retried after relaxation, m.
+const RETRY_DISTANCE: f64 = 0.02;
+/// Most separation passes in one step.
+const MAX_SEPARATION_PASSES: usize = 6;
+/// Position-based motion of an articulation. Nothing here allocates once the largest number of grabs has been used.
 #[derive(Clone, Debug)]
 pub struct Procedural {
     settings: Settings,
-    fours: Fours,
+    lane_kernels: LaneKernels,
     before: Vec<RigidBody>,
-    kept: Vec<RigidBody>,
-    compulsive: Compulsive,
+    checkpoint: Vec<RigidBody>,
+    relaxation: Relaxation,
     tree: TreeSolve,
-    touches: Touches,
-    reach: Reach,
-    /// When the last step ended, s.
+    contact_response: ContactResponse,
+    report: SolveReport,
+    /// End of the last step, s.
     ended: f64,
 }
 
 impl Procedural {
-    /// A mover for the figure of `dynamics`.
+    /// Position-based motion of the articulation of `dynamics`.
     pub fn new(dynamics: &Dynamics, settings: Settings) -> Self {
         let bodies = &dynamics.bodies;
         Self {
             settings,
-            fours: Fours::new(dynamics),
+            lane_kernels: LaneKernels::new(dynamics),
             before: bodies.clone(),
-            kept: bodies.clone(),
-            compulsive: Compulsive::new(dynamics),
+            checkpoint: bodies.clone(),
+            relaxation: Relaxation::new(dynamics),
             tree: TreeSolve::new(dynamics.system_without_trains(), bodies.len()),
-            touches: Touches::new(dynamics),
-            reach: Reach::default(),
+            contact_response: ContactResponse::new(dynamics),
+            report: SolveReport::default(),
             ended: f64::NAN,
         }
     }
 
-    /// The settings, to be changed between steps.
+    /// Settings; they may be changed between steps.
     pub fn settings_mut(&mut self) -> &mut Settings {
         &mut self.settings
     }
 
-    /// How the last step's adjustment ended.
-    pub fn reach(&self) -> Reach {
-        self.reach
+    /// Report of the last step's position solve.
+    pub fn report(&self) -> SolveReport {
+        self.report
     }
 
-    /// Moves the figure for `dt` seconds under wrenches from outside (N and N m about each centre of mass), the first
-    /// [`MOST_GRIPS`] grips held. Hits are appended to `impacts`; returns the first body with bad numbers, because of
-    /// which the figure was put back.
+    /// Advances the articulation by `dt` seconds under external wrenches (N and N m about each centre of mass), with
+    /// the first [`MAX_GRABS`] grabs. Appends impacts to `impacts`. Returns the first body with non-finite numbers,
+    /// if any: then the articulation was restored.
     pub fn step(
         &mut self,
         dynamics: &mut Dynamics,
         dt: f64,
         external: &[Vec6],
-        grips: &[Grip],
+        grabs: &[GrabTarget],
         impacts: &mut Vec<Impact>,
     ) -> Option<usize> {
-        let grips = &grips[..grips.len().min(MOST_GRIPS)];
-        let follows = dynamics.time() == self.ended;
-        let restored = dynamics.position_step(dt, external, impacts, |moved| self.carry_out(moved, dt, grips, follows));
+        let grabs = &grabs[..grabs.len().min(MAX_GRABS)];
+        let continues = dynamics.time() == self.ended;
+        let restored = dynamics.position_step(dt, external, impacts, |step| self.advance(step, dt, grabs, continues));
         self.ended = dynamics.time();
         restored
     }
 
-    fn carry_out(&mut self, mut moved: PositionStep, dt: f64, grips: &[Grip], follows: bool) {
-        self.before.copy_from_slice(moved.bodies);
-        self.leave_open(&mut moved, dt, follows);
-        moved.system.activity.set_time(moved.end_time);
-        self.update(&mut moved, dt);
-        self.reach = self.adjust(&mut moved, grips);
-        self.fours.keep_speed(moved.system, moved.bodies, &self.before, dt);
-        if self.touches.is_empty() {
+    fn advance(&mut self, mut step: PositionStep, dt: f64, grabs: &[GrabTarget], continues: bool) {
+        self.before.copy_from_slice(step.bodies);
+        self.decay_targets(&mut step, dt, continues);
+        step.system.activity.set_time(step.end_time);
+        self.update(&mut step, dt);
+        self.report = self.adjust(&mut step, grabs);
+        self.lane_kernels.derive_velocities(step.system, step.bodies, &self.before, dt);
+        if self.contact_response.is_empty() {
             return;
         }
-        let mut first = true;
-        for _ in 0..MOST_PUSHES {
-            if !self.touches.look(moved.contacts, &self.before, moved.bodies, first) {
+        let mut pass = SeparationPass::First;
+        for _ in 0..MAX_SEPARATION_PASSES {
+            if !self.contact_response.detect(step.contacts, &self.before, step.bodies, pass) {
                 break;
             }
             match self.settings.method {
-                Method::Compulsive => {
-                    self.touches.back_up(&mut self.compulsive, moved.system, moved.contacts, moved.bodies, first);
+                PositionSolver::Relaxation => {
+                    self.contact_response.separate_directly(
+                        &mut self.relaxation,
+                        step.system,
+                        step.contacts,
+                        step.bodies,
+                        pass,
+                    );
                 }
-                Method::TreeSolve => self.touches.move_out(moved.system, moved.bodies, first),
+                PositionSolver::TreeSolve => {
+                    self.contact_response.separate_through_joints(step.system, step.bodies, pass)
+                }
             }
-            first = false;
-            moved.system.quads_mut().look(moved.bodies);
-            self.reach = self.adjust(&mut moved, grips);
+            pass = SeparationPass::Repeated;
+            step.system.lane_blocks_mut().load(step.bodies);
+            self.report = self.adjust(&mut step, grabs);
         }
-        let motion = (dt, moved.gravity.length());
-        let by_ratio = self.settings.method == Method::Compulsive;
-        let shifted = self.touches.bounce(moved.system, moved.bodies, &self.before, (motion, by_ratio), moved.impacts);
-        self.fours.bound_speed(moved.bodies);
-        if shifted && !moved.system.joints().is_empty() {
-            self.reach = self.adjust(&mut moved, grips);
+        let friction = match self.settings.method {
+            PositionSolver::Relaxation => FrictionLaw::SlipRatio,
+            PositionSolver::TreeSolve => FrictionLaw::Coulomb,
+        };
+        let response_step = ResponseStep { dt, gravity: step.gravity.length(), friction };
+        let displaced =
+            self.contact_response.apply_impulses(step.system, step.bodies, &self.before, response_step, step.impacts);
+        self.lane_kernels.clamp_velocities(step.bodies);
+        if displaced && !step.system.joints().is_empty() {
+            self.report = self.adjust(&mut step, grabs);
         }
     }
 
-    /// Says what the joints may keep open: what is open at a step's start is drawn together over time, not in one step.
-    fn leave_open(&mut self, moved: &mut PositionStep, dt: f64, follows: bool) {
-        let closed = follows && !moved.activation_changed && self.reach.residual <= REACHED;
+    /// Sets the joints' target errors: an error at a step's start is closed over time, not in one step.
+    fn decay_targets(&mut self, step: &mut PositionStep, dt: f64, continues: bool) {
+        let closed = continues && !step.activation_changed && self.report.residual <= POSITION_TOLERANCE;
         if closed {
-            self.tree.left.fill(0.0);
+            self.tree.targets.fill(0.0);
             return;
         }
-        moved.system.evaluate(moved.bodies);
-        moved.system.leave_open(dt, moved.stabilization_time, &mut self.tree.left);
+        step.system.evaluate(step.bodies);
+        step.system.decay_targets(dt, step.stabilization_time, &mut self.tree.targets);
     }
 
-    /// The update: each body alone.
-    fn update(&self, moved: &mut PositionStep, dt: f64) {
+    /// The update: each body as if it were free.
+    fn update(&self, step: &mut PositionStep, dt: f64) {
         let Settings { method, retention, .. } = self.settings;
-        self.fours.update(moved, dt, retention, method == Method::TreeSolve);
-        for drive in moved.kinematic_bodies {
-            drive.motion.at(moved.end_time).place(&mut moved.bodies[drive.body]);
-            moved.system.quads_mut().look_at(drive.body, &moved.bodies[drive.body]);
+        self.lane_kernels.update(step, dt, retention, method == PositionSolver::TreeSolve);
+        for drive in step.kinematic_bodies {
+            drive.motion.at(step.end_time).place(&mut step.bodies[drive.body]);
+            step.system.lane_blocks_mut().load_body(drive.body, &step.bodies[drive.body]);
         }
     }
 
-    /// Brings the bodies, where the quads have them, back to where the joints hold.
-    fn adjust(&mut self, moved: &mut PositionStep, grips: &[Grip]) -> Reach {
-        if self.settings.method == Method::Compulsive {
-            return self.adjust_by_rule(moved, grips);
+    /// Closes the joints from the lane blocks' state.
+    fn adjust(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
+        if self.settings.method == PositionSolver::Relaxation {
+            return self.adjust_by_rule(step, grabs);
         }
-        let reach = self.tree.adjust(moved, grips, &self.fours);
-        if reach.reached() {
-            return reach;
+        let report = self.tree.adjust(step, grabs, &self.lane_kernels);
+        if report.converged() {
+            return report;
         }
-        // It leapt too far for tangents, or is asked too much: passes close a tree from anywhere.
-        self.kept.copy_from_slice(moved.bodies);
-        let mut last = self.compulsive.adjust(moved, grips, &self.tree.left, None);
-        let no_nearer = reach.residual <= REACHED && last.missed >= reach.missed;
-        if last.residual > REACHED.max(reach.residual) || no_nearer {
-            // Not so a figure that is held in many places, or a hand that is out of reach.
-            moved.bodies.copy_from_slice(&self.kept);
-            last = reach;
-        } else if !last.reached() && last.missed <= NEAR {
-            last = self.again(moved, grips, last, Reach::reached);
+        // Newton did not converge: the step was too long for linearisation, or the targets are out of reach.
+        // Relaxation closes a tree from anywhere.
+        self.checkpoint.copy_from_slice(step.bodies);
+        let mut last = self.relaxation.adjust(step, grabs, &self.tree.targets, None);
+        let no_nearer = report.residual <= POSITION_TOLERANCE && last.grab_error >= report.grab_error;
+        if last.residual > POSITION_TOLERANCE.max(report.residual) || no_nearer {
+            // Not so a mechanism held in several places, or a grab out of reach.
+            step.bodies.copy_from_slice(&self.checkpoint);
+            last = report;
+        } else if !last.converged() && last.grab_error <= RETRY_DISTANCE {
+            last = self.retry(step, grabs, last, SolveReport::converged);
         }
-        if last.residual > REACHED {
-            // Whatever is asked, the joints hold.
+        if last.residual > POSITION_TOLERANCE {
+            // Joints take precedence over grabs.
             let before = last.residual;
-            last = self.again(moved, &[], last, |reach| reach.residual < before);
-            last.missed = compulsive::farthest(grips, moved.bodies);
+            last = self.retry(step, &[], last, |report| report.residual < before);
+            last.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
         }
-        if last.residual > REACHED {
-            self.stay(moved);
-            last = self.again(moved, &[], last, |_| true);
-            last.missed = compulsive::farthest(grips, moved.bodies);
+        if last.residual > POSITION_TOLERANCE {
+            self.restore_start(step);
+            last = self.retry(step, &[], last, |_| true);
+            last.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
         }
-        last.passes += reach.passes;
+        last.passes += report.passes;
         last
     }
 
-    /// By the source's rule. What hands ask in vain is given up, as the joints go before them.
-    fn adjust_by_rule(&mut self, moved: &mut PositionStep, grips: &[Grip]) -> Reach {
-        let mut reach = self.compulsive.adjust(moved, grips, &self.tree.left, Some(self.settings.control));
+    /// Closes the joints by relaxation. Joints take precedence: grabs that would open them are given up.
+    fn adjust_by_rule(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
+        let mut report = self.relaxation.adjust(step, grabs, &self.tree.targets, Some(self.settings.control));
         for stays in [false, true] {
-            // What is open by little without hands is drawn together in the next steps.
-            if reach.residual <= REACHED || (grips.is_empty() && reach.residual <= NEAR) {
+            // Small errors without grabs are closed over the next steps.
+            if report.residual <= POSITION_TOLERANCE || (grabs.is_empty() && report.residual <= RETRY_DISTANCE) {
                 break;
             }
             if stays {
-                self.stay(moved);
-                moved.system.evaluate(moved.bodies);
-                reach.residual = moved.system.open_by(&self.tree.left);
-                reach.missed = compulsive::farthest(grips, moved.bodies);
-                if reach.residual <= REACHED {
+                self.restore_start(step);
+                step.system.evaluate(step.bodies);
+                report.residual = step.system.largest_residual(&self.tree.targets);
+                report.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
+                if report.residual <= POSITION_TOLERANCE {
                     break;
                 }
             }
-            let alone = self.compulsive.adjust(moved, &[], &self.tree.left, None);
-            reach = Reach {
-                passes: reach.passes + alone.passes,
-                missed: compulsive::farthest(grips, moved.bodies),
+            let alone = self.relaxation.adjust(step, &[], &self.tree.targets, None);
+            report = SolveReport {
+                passes: report.passes + alone.passes,
+                grab_error: relaxation::largest_grab_error(grabs, step.bodies),
                 ..alone
             };
         }
-        reach
+        report
     }
 
-    /// What cannot be done is not done: the figure stays where it stood.
-    fn stay(&self, moved: &mut PositionStep) {
-        let free = moved.system.driven().iter().map(|driven| !driven);
-        for ((body, before), free) in moved.bodies.iter_mut().zip(&self.before).zip(free) {
+    /// Puts all free bodies back where the step began.
+    fn restore_start(&self, step: &mut PositionStep) {
+        let free = step.system.kinematic().iter().map(|kinematic| !kinematic);
+        for ((body, before), free) in step.bodies.iter_mut().zip(&self.before).zip(free) {
             if free {
                 *body = *before;
             }
         }
     }
 
-    /// All joints at once another time, from where passes left them; back to there unless the outcome is good.
-    fn again(
+    /// Retries the Newton solve from the relaxed state; back to that unless the report is `good`.
+    fn retry(
         &mut self,
-        moved: &mut PositionStep,
-        grips: &[Grip],
-        passed: Reach,
-        good: impl Fn(&Reach) -> bool,
-    ) -> Reach {
-        self.kept.copy_from_slice(moved.bodies);
-        moved.system.quads_mut().look(moved.bodies);
-        let reach = self.tree.adjust(moved, grips, &self.fours);
-        if good(&reach) {
-            return reach;
+        step: &mut PositionStep,
+        grabs: &[GrabTarget],
+        passed: SolveReport,
+        good: impl Fn(&SolveReport) -> bool,
+    ) -> SolveReport {
+        self.checkpoint.copy_from_slice(step.bodies);
+        step.system.lane_blocks_mut().load(step.bodies);
+        let report = self.tree.adjust(step, grabs, &self.lane_kernels);
+        if good(&report) {
+            return report;
         }
-        moved.bodies.copy_from_slice(&self.kept);
+        step.bodies.copy_from_slice(&self.checkpoint);
         passed
     }
 }

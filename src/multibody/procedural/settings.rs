@@ -1,32 +1,32 @@
-//! What a user chooses of motion by places.
+//! Settings of position-based motion.
 
-/// c where nobody says otherwise: what falls for a step under a long chain turns none of its links, a hand that goes a
-/// metre a second does.
-pub const CONTROL: f64 = 10.0;
+/// Default of [`Settings::control`]: a long chain that falls for one step rotates none of its links; a hand at 1 m/s
+/// does.
+pub const DEFAULT_CONTROL: f64 = 10.0;
 
 /// How joints are closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// The source's compulsive motion, joint by joint.
-    Compulsive,
-    /// All joints at once.
+pub enum PositionSolver {
+    /// Joint-by-joint relaxation, the source's compulsive motion.
+    Relaxation,
+    /// Newton's method on all joints at once.
     #[default]
     TreeSolve,
 }
 
-/// What a user chooses.
+/// Settings of position-based motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// How joints are closed.
-    pub method: Method,
-    /// c of the compulsive rotation: the greater, the less bodies turn when pulled (no unit, from 0).
+    pub method: PositionSolver,
+    /// Control c of the compulsive rotation, from 0, no unit: the greater, the less bodies rotate when pulled.
     pub control: f64,
-    /// Share of the velocity kept from step to step beside the bodies' own damping, 0 … 1.
+    /// Fraction of the velocity kept per step besides the bodies' own damping, 0 … 1.
     pub retention: f64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { method: Method::default(), control: CONTROL, retention: 1.0 }
+        Self { method: PositionSolver::default(), control: DEFAULT_CONTROL, retention: 1.0 }
     }
 }

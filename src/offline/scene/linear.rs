@@ -76,7 +76,7 @@ fn solve_time(scene: &PhysicsScene, times: usize) -> f64 {
         &bodies,
         &vec![false; bodies.len()],
         &scene.constraints(),
-        soffio_multibody::articulation::Method::Sparse,
+        soffio_multibody::articulation::LinearSolver::Sparse,
     );
     system.evaluate(&bodies);
     let start = ThreadTime::now();

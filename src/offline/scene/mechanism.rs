@@ -15,8 +15,8 @@ use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::Function;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, tangents};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure, Term};
-use soffio_multibody::collision::reach::JointEnd;
-use soffio_multibody::collision::{Collider, Excluded, Exclusion, Reach, pairs};
+use soffio_multibody::collision::reachable_volume::JointEnd;
+use soffio_multibody::collision::{Collider, Excluded, Exclusion, ReachableVolumes, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, Settings, Solver, SurfacePair};
 
@@ -98,7 +98,7 @@ impl PhysicsScene {
         let end = |anchor: Anchor| JointEnd { body: anchor.body, point: anchor.point };
         let held = self.joints.iter().filter(|joint| joint.kind != JointKind::Slider);
         let points: Vec<_> = held.map(anchors).map(|(a, b)| [end(a), end(b)]).collect();
-        let reach = Reach::new(colliders, &poses, &points, &[]);
+        let reach = ReachableVolumes::new(colliders, &poses, &points, &[]);
         let meet = pairs(colliders, &excluded, &reach).meet.into_iter();
         meet.map(|pair| {
             let [a, b] = [pair.a, pair.b].map(|collider| material(colliders[collider].material));
@@ -163,7 +163,7 @@ fn measure(joint: &SceneJoint) -> Measure {
     let (a, b) = anchors(joint);
     let (axis_a, axis_b) = joint.axes().expect("a coupled joint has an axis");
     match joint.kind {
-        JointKind::Slider => Measure::Way { point: b, direction: Axis { body: a.body, direction: axis_a } },
+        JointKind::Slider => Measure::Displacement { point: b, direction: Axis { body: a.body, direction: axis_a } },
         _ => Measure::Angle { axis: Axis { body: b.body, direction: axis_b }, frame: a.body },
     }
 }

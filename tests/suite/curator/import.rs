@@ -214,10 +214,10 @@ fn materials_combine_as_the_model_says_and_filters_keep_apart() {
     });
     top(&mut scene, json!([{ "type": "sphere", "sphere": { "radius": 0.1 } }]), lists);
     let (_, exhibit) = loaded(&scene.glb());
-    let surface = exhibit.surface_pair(soffio_multibody::collision::Pair { a: 0, b: 1 });
+    let surface = exhibit.surface_pair(soffio_multibody::collision::ColliderPair { a: 0, b: 1 });
     // The average rule is the default of the other, and goes before: (0.2 + 0.6)/2; the greater of 0.5 and 0.9.
     assert!((surface.friction - 0.4).abs() < SINGLE && (surface.restitution - 0.9).abs() < SINGLE, "{surface:?}");
-    let own = exhibit.surface_pair(soffio_multibody::collision::Pair { a: 1, b: 2 });
+    let own = exhibit.surface_pair(soffio_multibody::collision::ColliderPair { a: 1, b: 2 });
     assert!((own.friction - 0.36).abs() < SINGLE, "{own:?}");
     let apart: Vec<_> = exhibit.excluded_pairs.iter().map(|e| e.bodies).collect();
     assert_eq!(apart, [(Some(0), Some(1)), (Some(0), Some(2))]);

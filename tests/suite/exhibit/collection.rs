@@ -3,7 +3,7 @@
 use soffio_exhibit::{self as exhibit, Exhibit, SoundTrigger};
 use soffio_math::{DVec3, PI};
 use soffio_multibody::articulation::{ConstraintKind, Measure};
-use soffio_multibody::collision::Pair;
+use soffio_multibody::collision::ColliderPair;
 
 fn shipped(id: &str) -> Exhibit {
     let folder = exhibit::resolve(id).unwrap_or_else(|report| panic!("{report}"));
@@ -38,7 +38,7 @@ fn the_wheel_is_held_about_one_axis_at_a_time() {
         let active: Vec<&str> = exhibit
             .constraints
             .iter()
-            .filter(|c| matches!(c.kind, ConstraintKind::Orientation { .. }) && c.schedule.share(t, None) > 0.0)
+            .filter(|c| matches!(c.kind, ConstraintKind::Orientation { .. }) && c.schedule.activation(t, None) > 0.0)
             .map(|c| c.name.as_str())
             .collect();
         assert!(active.len() == 2 && active.iter().all(|name| name.starts_with(held)), "{active:?} at {t} s");
@@ -140,7 +140,7 @@ fn the_balls_lie_apart_on_a_bed_that_is_steeper_than_the_cloth_holds() {
             let normal = place.rotation * DVec3::Y;
             let gap = (at - place.position).dot(normal) - RADIUS;
             nearest = nearest.min(gap);
-            let resistance = exhibit.surface_pair(Pair { a, b }).resistance;
+            let resistance = exhibit.surface_pair(ColliderPair { a, b }).resistance;
             if plane.node.starts_with("Bed") {
                 // tan α against b/r: it rolls back by itself.
                 let slope = (1.0 - normal.y * normal.y).sqrt() / normal.y;

@@ -69,7 +69,9 @@ fn values(exhibit: &Exhibit, twists: [Twist; 3], t: f64) -> Vec<f64> {
     let measure = |m: &Measure| match m {
         // Exact for turns about the axis itself, and the motions below are no others.
         Measure::Angle { axis: a, frame } => (turn(a.body) - turn(*frame)).dot(before(a.body).vector(a.direction)),
-        Measure::Way { point: p, direction } => (point(p) - before(p.body).point(p.point)).dot(axis(direction)),
+        Measure::Displacement { point: p, direction } => {
+            (point(p) - before(p.body).point(p.point)).dot(axis(direction))
+        }
     };
     let mut out = Vec::new();
     for constraint in &exhibit.constraints {
@@ -319,14 +321,14 @@ fn an_element_frees_or_holds_one_freedom() {
     // What is freed for ever has a window that never comes: those rows are left out here.
     for (dof, free) in [("tz", "rz tz"), ("tx", "rz tx"), ("rx", "rz rx")] {
         let mut exhibit = element(&format!("of = \"axle\"\nop = \"remove\"\ndof = \"{dof}\"\n"));
-        let freed: Vec<_> = exhibit.constraints.extract_if(.., |c| c.schedule.share(1.0, None) == 0.0).collect();
+        let freed: Vec<_> = exhibit.constraints.extract_if(.., |c| c.schedule.activation(1.0, None) == 0.0).collect();
         assert_eq!(freed.len(), 1, "{dof}: {:?}", names(&exhibit));
         assert_eq!(freed[0].group(), "axle");
         check_freedoms(&exhibit, WEIGHT, at, world, free);
     }
     // Along the axes of a turned node.
     let mut exhibit = element("of = \"axle/nail\"\nop = \"remove\"\ndof = \"tx\"\nframe = { node = \"Rail\" }\n");
-    exhibit.constraints.retain(|c| c.schedule.share(1.0, None) > 0.0);
+    exhibit.constraints.retain(|c| c.schedule.activation(1.0, None) > 0.0);
     let x = rotation(2.0 * asin(0.6) * DVec3::Z) * DVec3::X;
     check_freedoms(&exhibit, WEIGHT, at, [x, DVec3::Z.cross(x), DVec3::Z], "rz tx");
 
@@ -359,7 +361,7 @@ fn limits_bound_rotations_displacements_tilts_and_distances() {
     };
     assert_eq!(axis.body, Some(WHEEL));
     assert!((min + PI / 30.0).abs() < SINGLE && (max - PI / 30.0).abs() < SINGLE && limit("arbor").restitution == 0.1);
-    let LimitKind::Range { measure: Measure::Way { direction, .. }, min, max } = limit("drop").kind else {
+    let LimitKind::Range { measure: Measure::Displacement { direction, .. }, min, max } = limit("drop").kind else {
         panic!("not a way")
     };
     assert!((min + 0.4).abs() < SINGLE && max == f64::INFINITY && direction.direction.distance(DVec3::Y) < SINGLE);

@@ -54,7 +54,7 @@ fn the_full_example_loads_with_everything_it_says() {
     ];
     assert_eq!(names, expected);
     let freed = exhibit.constraints.iter().find(|c| c.name == "wheel-axle/tz").expect("the freed row");
-    assert_eq!((freed.schedule.share(11.0, None), freed.schedule.share(15.0, None)), (1.0, 0.0));
+    assert_eq!((freed.schedule.activation(11.0, None), freed.schedule.activation(15.0, None)), (1.0, 0.0));
     assert_eq!(freed.stabilization_time, Some(0.06));
     let ConstraintKind::Coupling { terms } = &exhibit.constraints[13].kind else { panic!("not a cord") };
     assert!(terms[0].coefficient == 2.0 && (terms[1].coefficient + 0.018).abs() < 1e-12, "{terms:?}");

@@ -10,7 +10,7 @@ use soffio_exhibit::{self as exhibit, AttractAction, Diagnostic, Exhibit, Impact
 use soffio_geometry::support::Core;
 use soffio_math::{DVec3, PI};
 use soffio_multibody::articulation::{ConstraintKind, LimitKind};
-use soffio_multibody::collision::{Collider, Excluded, Pair};
+use soffio_multibody::collision::{Collider, ColliderPair, Excluded};
 use soffio_multibody::dynamics::RollingResistance;
 use soffio_wind::SurfaceShape;
 
@@ -177,7 +177,7 @@ fn resistances_of_surfaces_add_unless_their_pair_says_otherwise() {
                 [[body]]\nnode = \"Plate\"\nmaterial = \"steel\"\n[[body]]\nnode = \"Boom\"\nmass = 1\n\
                 inertia = { diagonal = [1, 1, 1] }\n";
     let exhibit = load(text).unwrap_or_else(|report| panic!("{}", report.to_text()));
-    let of = |a: usize, b: usize| exhibit.surface_pair(Pair { a, b }).resistance;
+    let of = |a: usize, b: usize| exhibit.surface_pair(ColliderPair { a, b }).resistance;
     let same = |found: RollingResistance, rolling: f64, spinning: f64| {
         assert!((found.rolling - rolling).abs() < 1e-12 && (found.spinning - spinning).abs() < 1e-12, "{found:?}");
     };

@@ -31,7 +31,7 @@ fn windows_come_alone_or_in_a_list_with_ramps_and_a_period() {
     let schedule = &one.constraints[0].schedule;
     assert_eq!(schedule.windows, [Window { start: 0.5, end: 2.0 }]);
     for (t, share) in [(0.25, 0.0), (0.625, 0.5), (1.0, 1.0), (1.75, 0.5), (2.5, 0.0), (3.625, 0.5)] {
-        assert!((schedule.share(t, None) - share).abs() < ROUNDING, "at {t} s");
+        assert!((schedule.activation(t, None) - share).abs() < ROUNDING, "at {t} s");
     }
     let list = nail("window = [{ end = 1 }, { start = 4, end = \"inf\" }]");
     let windows = &list.constraints[0].schedule.windows;
@@ -62,7 +62,7 @@ fn all_parts_of_a_combination_share_its_times_and_break_together() {
     let first = &exhibit.constraints[0];
     assert_eq!(exhibit.constraints.len(), 3);
     assert!(exhibit.constraints.iter().all(|c| c.schedule == first.schedule && c.breaking == first.breaking));
-    assert_eq!((first.schedule.share(2.0, None), first.breaking.map(|b| b.force)), (1.0, Some(5.0)));
+    assert_eq!((first.schedule.activation(2.0, None), first.breaking.map(|b| b.force)), (1.0, Some(5.0)));
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn an_element_leaves_a_hole_that_its_own_ramps_cross() {
     };
     // There from the first moment, gone inside; what it lets go, the hole has.
     for t in [0.0, 11.9, 12.25, 12.75, 13.0, 15.0, 18.5, 19.5, 20.0, 30.0] {
-        let (found, expected) = (freed.schedule.share(t, None), 1.0 - hole.share(t, None));
+        let (found, expected) = (freed.schedule.activation(t, None), 1.0 - hole.activation(t, None));
         assert!((found - expected).abs() < ROUNDING, "at {t} s: {found}, expected {expected}");
     }
     assert!(exhibit.constraints.iter().filter(|c| c.name != "pin/ty").all(|c| c.schedule.is_always()));
@@ -88,7 +88,7 @@ fn an_element_leaves_a_hole_that_its_own_ramps_cross() {
     let repeated = Schedule { period: Some(30.0), ..hole };
     let rest = Schedule::default().without(&repeated);
     for t in [0.0, 11.9, 12.25, 15.0, 18.5, 19.5, 20.0, 29.99, 30.0, 42.5, 45.0, 49.5, 59.9] {
-        let (found, expected) = (rest.share(t, None), 1.0 - repeated.share(t, None));
+        let (found, expected) = (rest.activation(t, None), 1.0 - repeated.activation(t, None));
         assert!((found - expected).abs() < ROUNDING, "at {t} s: {found}, expected {expected}");
     }
 }

@@ -62,7 +62,7 @@ impl Context<'_> {
         let about = perpendicular(fixed(self, a.body, t), fixed(self, b.body, n));
         self.push(out, &header, "about", about, None);
         self.record_header_origins(&header, "slider", out, first);
-        let measure = Measure::Way { point: a, direction: fixed(self, b.body, direction_world) };
+        let measure = Measure::Displacement { point: a, direction: fixed(self, b.body, direction_world) };
         if let Some(stops) = given.limit {
             let range = (stops.min.map(|x| x.0), stops.max.map(|x| x.0), stops.restitution);
             self.stops(out, &header, measure, range);

@@ -125,7 +125,7 @@ impl Context<'_> {
         self.enable(&given.name, given.enabled, at, out);
         let Some(measure) = self.turn(&given.axle, &given.name, at, out) else { return };
         let torque = self.positive(given.torque.0, &format!("{at}/torque"));
-        if matches!(measure, Measure::Way { .. }) {
+        if matches!(measure, Measure::Displacement { .. }) {
             let problem = Diagnostic::new(codes::WRONG_SHAPE, format!("clutch \"{}\" slides", given.name));
             self.report(at, problem.help("name a hinge, or a body, an axis and the frame it turns with"));
             return;
@@ -152,7 +152,7 @@ impl Context<'_> {
             return;
         }
         let terms = vec![
-            Term { measure: Measure::Way { point, direction }, coefficient: f64::from(given.pulleys) },
+            Term { measure: Measure::Displacement { point, direction }, coefficient: f64::from(given.pulleys) },
             Term { measure: Measure::Angle { axis, frame }, coefficient: -radius },
         ];
         let first = out.constraints.len();

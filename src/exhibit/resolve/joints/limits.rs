@@ -14,7 +14,7 @@ const DEGREES: f64 = 180.0 / PI;
 pub(super) fn range_shown(measure: &Measure, min: f64, max: f64) -> String {
     match measure {
         Measure::Angle { .. } => format!("{:.2}° to {:.2}°", min * DEGREES, max * DEGREES),
-        Measure::Way { .. } => format!("{min} to {max} m"),
+        Measure::Displacement { .. } => format!("{min} to {max} m"),
     }
 }
 
@@ -109,7 +109,7 @@ impl Context<'_> {
                     }
                 };
                 let Some(direction) = direction else { return };
-                self.range(given, Measure::Way { point: a, direction }, at, out);
+                self.range(given, Measure::Displacement { point: a, direction }, at, out);
             }
             (None, None) => self.distance(given, a, b, at, out),
             (Some(_), Some(_)) => {
@@ -190,7 +190,7 @@ impl Context<'_> {
         if given.reverse {
             match &mut measure {
                 Measure::Angle { axis, .. } => axis.direction = -axis.direction,
-                Measure::Way { direction, .. } => direction.direction = -direction.direction,
+                Measure::Displacement { direction, .. } => direction.direction = -direction.direction,
             }
         }
         let is_turn = matches!(measure, Measure::Angle { .. });

@@ -248,7 +248,7 @@ impl Context<'_> {
                 axis.direction,
                 self.body_name(*frame)
             ),
-            Measure::Way { point, direction } => format!(
+            Measure::Displacement { point, direction } => format!(
                 "displacement of {} along {} of {}",
                 self.body_name(point.body),
                 direction.direction,

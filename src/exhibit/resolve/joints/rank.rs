@@ -166,7 +166,7 @@ impl Context<'_> {
                                 let n = self.pose_of(axis.body).vector(axis.direction);
                                 (axis.body, *frame, DVec3::ZERO, n)
                             }
-                            Measure::Way { point, direction } => {
+                            Measure::Displacement { point, direction } => {
                                 let u = self.pose_of(direction.body).vector(direction.direction);
                                 (point.body, direction.body, u, arm(point).cross(u))
                             }
@@ -202,7 +202,7 @@ fn active_sets(constraints: &[Constraint]) -> Vec<Vec<usize>> {
     let mut sets: Vec<Vec<usize>> = Vec::new();
     for t in times {
         // A trigger can come at any time: such a constraint counts as active in its windows.
-        let full = |c: &Constraint| c.schedule.share(t, c.schedule.trigger.map(|_| 0.0)) >= 1.0;
+        let full = |c: &Constraint| c.schedule.activation(t, c.schedule.trigger.map(|_| 0.0)) >= 1.0;
         let set: Vec<usize> = (0..constraints.len()).filter(|&i| full(&constraints[i])).collect();
         if !sets.contains(&set) {
             sets.push(set);

@@ -31,7 +31,7 @@ impl Context<'_> {
     pub(super) fn torsion_spring(&mut self, given: &sidecar::TorsionSpring, at: &str, out: &mut Joints) {
         let header = self.header(&given.name, &given.timing, at, out);
         let Some(measure) = self.turn(&given.axle, &given.name, at, out) else { return };
-        if let soffio_multibody::articulation::Measure::Way { .. } = measure {
+        if let soffio_multibody::articulation::Measure::Displacement { .. } = measure {
             let problem = Diagnostic::new(codes::WRONG_TYPE, format!("\"{}\" twists a slider", given.name));
             self.report(&format!("{at}/of"), problem.help("a torsion spring acts on a hinge; a slider takes a spring"));
             return;

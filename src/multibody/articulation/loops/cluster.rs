@@ -1,9 +1,9 @@
 //! One component of a figure's graph that has loops: which blocks its joints and couplings have, and where.
 
-use super::graph::Component;
-use super::sparse::Sparse;
+use super::biconnected::Component;
+use super::sparse_structure::SparseFactor;
 use super::{LoopRow, Span};
-use crate::articulation::groups::Groups;
+use crate::articulation::disjoint_sets::DisjointSets;
 use crate::articulation::trains::Trains;
 use soffio_math::spatial::{Mat6, Vec6};
 
@@ -19,7 +19,7 @@ pub(super) struct Node {
 
 /// The part of a node's rows that is on one body.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part {
+pub(super) struct RowBlockRef {
     pub node: usize,
     /// Which of the rows' parts it is.
     pub index: usize,
@@ -29,9 +29,9 @@ pub(super) struct Part {
 
 /// A body or a train, and the parts on it.
 #[derive(Clone, Debug)]
-pub(super) struct Member {
+pub(super) struct Clique {
     pub index: usize,
-    pub parts: Vec<Part>,
+    pub parts: Vec<RowBlockRef>,
     /// Items of the blocks of each part with itself and those after it.
     pub items: Vec<usize>,
 }
@@ -41,13 +41,13 @@ pub(super) struct Member {
 pub(super) struct Cluster {
     pub top: Option<usize>,
     /// Parts on the top, with the items of their blocks.
-    pub on_top: Vec<(Part, usize)>,
+    pub on_top: Vec<(RowBlockRef, usize)>,
     /// Joints and couplings, in the order of elimination.
     pub nodes: Vec<Node>,
-    pub bodies: Vec<Member>,
-    pub trains: Vec<Member>,
+    pub bodies: Vec<Clique>,
+    pub trains: Vec<Clique>,
     /// Parts on bodies whose a is given: driven ones, wheels of trains.
-    pub given: Vec<(usize, Part)>,
+    pub given: Vec<(usize, RowBlockRef)>,
     /// A⁻¹ by bodies; does nothing hang on each?
     pub inverses: Vec<Mat6>,
     pub leaves: Vec<bool>,
@@ -56,13 +56,13 @@ pub(super) struct Cluster {
     /// W by parts, column by column: six for each row.
     pub w: Vec<f64>,
     /// f of the rows by trains.
-    pub shares: Vec<f64>,
-    pub factor: Sparse,
+    pub coefficients: Vec<f64>,
+    pub factor: SparseFactor,
     /// e, then λ.
     pub x: Vec<f64>,
 }
 
-impl Member {
+impl Clique {
     fn new(index: usize) -> Self {
         Self { index, parts: Vec::new(), items: Vec::new() }
     }
@@ -72,7 +72,7 @@ impl Member {
     }
 
     /// Parts go by the order of elimination from here on.
-    fn place(&mut self, places: &[usize], factor: &Sparse) {
+    fn place(&mut self, places: &[usize], factor: &SparseFactor) {
         self.parts.iter_mut().for_each(|part| part.node = places[part.node]);
         self.parts.sort_unstable_by_key(|part| part.node);
         for (k, part) in self.parts.iter().enumerate() {
@@ -81,7 +81,7 @@ impl Member {
     }
 
     /// Each two parts on it, the earlier first, and the item of their block.
-    pub fn pairs(&self) -> impl Iterator<Item = (Part, Part, usize)> {
+    pub fn pairs(&self) -> impl Iterator<Item = (RowBlockRef, RowBlockRef, usize)> {
         let pairs = self
             .parts
             .iter()
@@ -101,17 +101,17 @@ impl Cluster {
         hangs: impl Fn(usize) -> bool,
     ) -> Self {
         let spans: Vec<Span> = component.ties.iter().map(|&tie| spans[tie]).collect();
-        let mut bodies: Vec<Member> = component.bodies.iter().map(|&body| Member::new(body)).collect();
-        let mut of_trains: Vec<Member> = component.trains.iter().map(|&train| Member::new(train)).collect();
-        let (mut on_top, mut given, mut blocks, mut shares) = (Vec::new(), Vec::new(), 0, 0);
+        let mut bodies: Vec<Clique> = component.bodies.iter().map(|&body| Clique::new(body)).collect();
+        let mut of_trains: Vec<Clique> = component.trains.iter().map(|&train| Clique::new(train)).collect();
+        let (mut on_top, mut given, mut blocks, mut coefficients) = (Vec::new(), Vec::new(), 0, 0);
         // What is joined so far: the top with all that is given comes first, then the bodies.
-        let mut joined = Groups::new(component.bodies.len() + 1);
+        let mut joined = DisjointSets::new(component.bodies.len() + 1);
         let mut closes = Vec::new();
         for (node, span) in spans.iter().enumerate() {
             // A joint of one body is one to the world.
             let mut touched = if rows[span.first].parts.len() == 1 { vec![0] } else { Vec::new() };
             for (index, &(body, _)) in rows[span.first].parts.iter().enumerate() {
-                let part = Part { node, index, at: blocks };
+                let part = RowBlockRef { node, index, at: blocks };
                 blocks += span.count;
                 if component.top == Some(body) {
                     on_top.push(part);
@@ -125,27 +125,27 @@ impl Cluster {
                     let train = component.trains.iter().position(|&own| trains.of(body) == Some(own));
                     let new = |&k: &usize| of_trains[k].parts.last().is_none_or(|part| part.node != node);
                     if let Some(k) = train.filter(new) {
-                        of_trains[k].parts.push(Part { node, index, at: shares });
-                        shares += span.count;
+                        of_trains[k].parts.push(RowBlockRef { node, index, at: coefficients });
+                        coefficients += span.count;
                     }
                 }
             }
             closes.push(touched.iter().all(|&end| joined.first(end) == joined.first(touched[0])));
             joined.join_all(touched);
         }
-        let members = || bodies.iter().chain(&of_trains);
-        let cliques: Vec<Vec<usize>> = members().map(Member::clique).collect();
+        let cliques_of = || bodies.iter().chain(&of_trains);
+        let cliques: Vec<Vec<usize>> = cliques_of().map(Clique::clique).collect();
         let capacities: Vec<usize> = spans.iter().map(|span| span.count).collect();
-        let mut rimmed = vec![false; spans.len()];
-        on_top.iter().for_each(|part: &Part| rimmed[part.node] = true);
-        let (factor, order) = Sparse::new(&capacities, &cliques, &rimmed);
+        let mut bordered = vec![false; spans.len()];
+        on_top.iter().for_each(|part: &RowBlockRef| bordered[part.node] = true);
+        let (factor, order) = SparseFactor::new(&capacities, &cliques, &bordered);
         let mut places = vec![0; order.len()];
         order.iter().enumerate().for_each(|(place, &node)| places[node] = place);
         bodies.iter_mut().chain(&mut of_trains).for_each(|member| member.place(&places, &factor));
-        let mut placed = |part: Part| Part { node: places[part.node], ..part };
+        let mut placed = |part: RowBlockRef| RowBlockRef { node: places[part.node], ..part };
         Self {
             top: component.top,
-            on_top: on_top.into_iter().map(&mut placed).map(|p| (p, factor.place(p.node, factor.rim()))).collect(),
+            on_top: on_top.into_iter().map(&mut placed).map(|p| (p, factor.place(p.node, factor.border()))).collect(),
             nodes: order
                 .iter()
                 .map(|&k| Node { span: spans[k], at: rows[spans[k].first].at, closes: closes[k] })
@@ -157,7 +157,7 @@ impl Cluster {
             trains: of_trains,
             j: vec![[0.0; 6]; blocks],
             w: vec![0.0; 6 * blocks],
-            shares: vec![0.0; shares],
+            coefficients: vec![0.0; coefficients],
             x: vec![0.0; factor.unknowns()],
             factor,
         }

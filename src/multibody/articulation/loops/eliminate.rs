@@ -1,23 +1,24 @@
 //! The elimination of a component, and the solves by it, in the letters of the folder's head.
 
 use super::cluster::{Cluster, Node};
-use super::sparse::RIM;
-use super::{GATHERING, LoopRow};
-use crate::articulation::block::{RowVec, for_rows};
+use super::sparse_structure::BORDER;
+use super::{LoopRow, STABILISING_COMPLIANCE};
 use crate::articulation::trains::Trains;
 use crate::articulation::tree::JointRows;
+use soffio_math::for_rows;
+use soffio_math::spatial::row_blocks::RowVec;
 use soffio_math::spatial::{Articulated, Mat6, NUMBERS, Vec6, add_scaled, dot, inverse, mul};
 
 /// Where the rows of a component are.
 #[derive(Clone, Copy)]
-pub(super) struct Source<'a> {
+pub(super) struct RowSource<'a> {
     /// Of joints.
     pub blocks: &'a [JointRows],
     /// Of couplings.
     pub rows: &'a [LoopRow],
 }
 
-impl<'a> Source<'a> {
+impl<'a> RowSource<'a> {
     /// How many rows of a node act.
     #[inline(always)]
     fn size(&self, node: &Node) -> usize {
@@ -47,28 +48,34 @@ impl<'a> Source<'a> {
 impl Cluster {
     /// Factors K for these rows and lays what is left of them on the articulated mass of the top. Does the figure gather?
     #[inline(always)]
-    pub fn factor(&mut self, source: Source, articulated: &mut [[f64; NUMBERS]], trains: &Trains, gathering: bool) {
+    pub fn factor(
+        &mut self,
+        source: RowSource,
+        articulated: &mut [[f64; NUMBERS]],
+        trains: &Trains,
+        stabilising: bool,
+    ) {
         let Self { nodes, factor, w, .. } = self;
         factor.begin(|node| source.size(&nodes[node]));
         for (_, part) in &self.given {
             let own = source.part(&nodes[part.node], part.index, factor.size(part.node));
             self.j[part.at..part.at + own.len()].copy_from_slice(own);
         }
-        for (k, member) in self.bodies.iter().enumerate() {
-            let mass = Articulated::of_numbers(&articulated[member.index]);
+        for (k, clique) in self.bodies.iter().enumerate() {
+            let mass = Articulated::of_numbers(&articulated[clique.index]);
             self.inverses[k] = if self.leaves[k] { mass.inverse_alone() } else { inverse(&mass.matrix()) };
             let inverse = &self.inverses[k];
-            for part in &member.parts {
+            for part in &clique.parts {
                 let own = source.part(&nodes[part.node], part.index, factor.size(part.node));
                 let columns = &mut w[6 * part.at..][..6 * own.len()];
                 for (l, j) in own.iter().enumerate() {
-                    let answer = if self.leaves[k] { mul_alone(inverse, j) } else { mul(inverse, j) };
+                    let column = if self.leaves[k] { mul_alone(inverse, j) } else { mul(inverse, j) };
                     for c in 0..6 {
-                        columns[c * own.len() + l] = answer[c];
+                        columns[c * own.len() + l] = column[c];
                     }
                 }
             }
-            for (first, second, item) in member.pairs() {
+            for (first, second, item) in clique.pairs() {
                 let others = factor.size(second.node);
                 let own = source.part(&nodes[first.node], first.index, factor.size(first.node));
                 for_rows!(others, others => {
@@ -88,8 +95,8 @@ impl Cluster {
             }
         }
         for (index, node) in nodes.iter().enumerate() {
-            if gathering && node.closes {
-                (0..factor.size(index)).for_each(|k| *factor.diagonal(index, k) *= 1.0 + GATHERING);
+            if stabilising && node.closes {
+                (0..factor.size(index)).for_each(|k| *factor.diagonal(index, k) *= 1.0 + STABILISING_COMPLIANCE);
             }
             let Some(compliance) = source.compliance(node) else { continue };
             let (size, item) = (factor.size(index), factor.own(index));
@@ -101,10 +108,10 @@ impl Cluster {
         }
         factor.factor();
         if let Some(top) = self.top {
-            let (rim, item) = (factor.rim(), factor.own(factor.rim()));
-            let mut left: Mat6 = [[0.0; RIM]; RIM];
+            let (border, item) = (factor.border(), factor.own(factor.border()));
+            let mut left: Mat6 = [[0.0; BORDER]; BORDER];
             for (k, row) in left.iter_mut().enumerate() {
-                row.copy_from_slice(factor.row(rim, k, item));
+                row.copy_from_slice(factor.row(border, k, item));
             }
             for (sum, left) in articulated[top].iter_mut().zip(Articulated::of_matrix(&left).numbers()) {
                 *sum -= left;
@@ -114,26 +121,26 @@ impl Cluster {
 
     /// Adds what trains answer.
     #[inline(always)]
-    fn add_trains(&mut self, source: Source, trains: &Trains) {
-        let Self { nodes, factor, shares, .. } = self;
-        for member in &self.trains {
-            for part in &member.parts {
+    fn add_trains(&mut self, source: RowSource, trains: &Trains) {
+        let Self { nodes, factor, coefficients, .. } = self;
+        for clique in &self.trains {
+            for part in &clique.parts {
                 let (node, size) = (&nodes[part.node], factor.size(part.node));
-                let shares = &mut shares[part.at..part.at + size];
-                shares.fill(0.0);
+                let coefficients = &mut coefficients[part.at..part.at + size];
+                coefficients.fill(0.0);
                 for (index, &(body, _)) in source.rows[node.span.first].parts.iter().enumerate() {
-                    if trains.of(body) == Some(member.index) {
-                        for (share, j) in shares.iter_mut().zip(source.part(node, index, size)) {
-                            *share += trains.share(&(body, *j)).map_or(0.0, |(_, f)| f);
+                    if trains.of(body) == Some(clique.index) {
+                        for (coefficient, j) in coefficients.iter_mut().zip(source.part(node, index, size)) {
+                            *coefficient += trains.row_coefficient(&(body, *j)).map_or(0.0, |(_, f)| f);
                         }
                     }
                 }
             }
-            for (first, second, item) in member.pairs() {
+            for (first, second, item) in clique.pairs() {
                 for k in 0..factor.size(first.node) {
                     let entries = factor.row(first.node, k, item);
-                    for (entry, f) in entries.iter_mut().zip(&shares[second.at..]) {
-                        *entry += trains.response(member.index, shares[first.at + k], *f);
+                    for (entry, f) in entries.iter_mut().zip(&coefficients[second.at..]) {
+                        *entry += trains.response(clique.index, coefficients[first.at + k], *f);
                     }
                 }
             }
@@ -142,19 +149,19 @@ impl Cluster {
 
     /// The way up: what the rows push on the top into `b`. `a` has the accelerations of what is given.
     #[inline(always)]
-    pub fn up(&mut self, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
+    pub fn inward(&mut self, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
         let Self { nodes, factor, j, w, x, .. } = self;
         for (index, node) in nodes.iter().enumerate() {
             let (first, size) = (factor.first(index), factor.size(index));
             x[first..first + size].copy_from_slice(&g[node.at..node.at + size]);
         }
-        for member in &self.bodies {
-            for part in &member.parts {
+        for clique in &self.bodies {
+            for part in &clique.parts {
                 let (first, size) = (factor.first(part.node), factor.size(part.node));
                 let (x, w) = (&mut x[first..first + size], &w[6 * part.at..][..6 * size]);
                 for c in 0..6 {
                     for (x, w) in x.iter_mut().zip(&w[c * size..]) {
-                        *x -= w * b[member.index][c];
+                        *x -= w * b[clique.index][c];
                     }
                 }
             }
@@ -165,31 +172,31 @@ impl Cluster {
                 *x -= dot(block, &a[*body]);
             }
         }
-        let rim = factor.first(factor.rim());
-        x[rim..].fill(0.0);
+        let border = factor.first(factor.border());
+        x[border..].fill(0.0);
         factor.forward(x);
-        if let (Some(top), Some(left)) = (self.top, x[rim..].first_chunk::<RIM>()) {
+        if let (Some(top), Some(left)) = (self.top, x[border..].first_chunk::<BORDER>()) {
             add_scaled(&mut b[top], -1.0, left);
         }
     }
 
     /// The way down: the rows' `lambda`, the bodies' `a`, and what the rows push along each train.
     #[inline(always)]
-    pub fn down(&mut self, b: &[Vec6], lambda: &mut [f64], a: &mut [Vec6], pushes: &mut [f64]) {
+    pub fn outward(&mut self, b: &[Vec6], lambda: &mut [f64], a: &mut [Vec6], pushes: &mut [f64]) {
         let Self { nodes, factor, x, .. } = self;
-        let rim = factor.first(factor.rim());
+        let border = factor.first(factor.border());
         match self.top {
-            Some(top) => x[rim..].copy_from_slice(&a[top]),
-            None => x[rim..].fill(0.0),
+            Some(top) => x[border..].copy_from_slice(&a[top]),
+            None => x[border..].fill(0.0),
         }
         factor.backward(x);
         for (index, node) in nodes.iter().enumerate() {
             let (first, size) = (factor.first(index), factor.size(index));
             lambda[node.at..node.at + size].copy_from_slice(&x[first..first + size]);
         }
-        for (member, inverse) in self.bodies.iter().zip(&self.inverses) {
-            let mut out = mul(inverse, &b[member.index]);
-            for part in &member.parts {
+        for (clique, inverse) in self.bodies.iter().zip(&self.inverses) {
+            let mut out = mul(inverse, &b[clique.index]);
+            for part in &clique.parts {
                 let (first, size) = (factor.first(part.node), factor.size(part.node));
                 let x = &x[first..first + size];
                 let w = &self.w[6 * part.at..][..6 * size];
@@ -199,35 +206,35 @@ impl Cluster {
                     }
                 }
             }
-            a[member.index] = out;
+            a[clique.index] = out;
         }
         self.push_trains(pushes);
     }
 
     /// What the rows push along each train if this one, and nothing else, goes at a rate of 1 that they are not asked to keep.
-    pub fn answer_train(&mut self, train: usize, pushes: &mut [f64]) {
-        let Some(member) = self.trains.iter().find(|member| member.index == train) else { return };
+    pub fn respond_to_train(&mut self, train: usize, pushes: &mut [f64]) {
+        let Some(clique) = self.trains.iter().find(|clique| clique.index == train) else { return };
         self.x.fill(0.0);
-        for part in &member.parts {
+        for part in &clique.parts {
             let first = self.factor.first(part.node);
             for k in 0..self.factor.size(part.node) {
-                self.x[first + k] = -self.shares[part.at + k];
+                self.x[first + k] = -self.coefficients[part.at + k];
             }
         }
         self.factor.forward(&mut self.x);
         // A train stands on the ground, and so does all that it is in a loop with.
-        self.x[self.factor.first(self.factor.rim())..].fill(0.0);
+        self.x[self.factor.first(self.factor.border())..].fill(0.0);
         self.factor.backward(&mut self.x);
         self.push_trains(pushes);
     }
 
     #[inline(always)]
     fn push_trains(&self, pushes: &mut [f64]) {
-        for member in &self.trains {
-            for part in &member.parts {
+        for clique in &self.trains {
+            for part in &clique.parts {
                 let first = self.factor.first(part.node);
                 for k in 0..self.factor.size(part.node) {
-                    pushes[member.index] += self.x[first + k] * self.shares[part.at + k];
+                    pushes[clique.index] += self.x[first + k] * self.coefficients[part.at + k];
                 }
             }
         }

@@ -22,22 +22,33 @@
 //!
 //! Rows that repeat others (a planar four-bar of hinges has three) get the multiplier 0, as in the tree.
 
+pub(super) mod biconnected;
 mod cluster;
 mod eliminate;
-mod factor;
-pub(super) mod graph;
-mod sparse;
+mod sparse_factor;
+mod sparse_structure;
 
-use super::block::RowVec;
 use super::trains::Trains;
 use super::tree::{JointRows, Tree};
 use cluster::{Cluster, Node};
-use eliminate::Source;
+use eliminate::RowSource;
+use soffio_math::spatial::row_blocks::RowVec;
 use soffio_math::spatial::{NUMBERS, Vec6};
 
 /// Γ of rows that close loops while a figure gathers, as a share of their answer alone. On its way together a figure
 /// passes places where its rows almost repeat each other but do not agree; what little holds them there must not decide.
-pub const GATHERING: f64 = 1e-4;
+pub const STABILISING_COMPLIANCE: f64 = 1e-4;
+
+/// What the elimination of a component reads beside its own rows.
+#[derive(Clone, Copy)]
+pub struct LoopInputs<'a> {
+    /// Row blocks of the joints.
+    pub blocks: &'a [JointRows],
+    /// Gear trains.
+    pub trains: &'a Trains,
+    /// Whether any row is being closed by stabilisation: then rows that close loops get [`STABILISING_COMPLIANCE`].
+    pub stabilising: bool,
+}
 
 /// One row outside the tree. Where it is one of a joint, only the dense solver keeps its numbers here.
 #[derive(Clone, Debug)]
@@ -53,7 +64,7 @@ pub struct LoopRow {
     /// Γ with the rows of its joint, from the first to itself.
     pub compliance: RowVec,
     /// Is it a coupling of a train, which the train itself holds?
-    pub held: bool,
+    pub train_internal: bool,
 }
 
 impl LoopRow {
@@ -85,13 +96,13 @@ pub struct Loops {
     /// What the rows push along each train.
     pushes: Vec<f64>,
     /// The same for a rate of each train alone that they are not asked to keep; empty until it is asked for.
-    answers: Vec<f64>,
+    train_responses: Vec<f64>,
 }
 
 impl Loops {
     /// Those beside a tree, of joints and couplings that have these spans of them.
     pub(super) fn new(rows: Vec<LoopRow>, tree: &Tree, spans: &[Span], trains: &Trains) -> Self {
-        let new = |component| Cluster::new(component, spans, &rows, trains, |body| tree.carries(body));
+        let new = |component| Cluster::new(component, spans, &rows, trains, |body| tree.has_children(body));
         let clusters: Vec<Cluster> = tree.components.iter().map(new).collect();
         let mut places = vec![None; rows.len()];
         for (cluster, of) in clusters.iter().enumerate() {
@@ -100,7 +111,7 @@ impl Loops {
             }
         }
         let count = trains.count();
-        Self { rows, clusters, places, pushes: vec![0.0; count], answers: Vec::with_capacity(count * count) }
+        Self { rows, clusters, places, pushes: vec![0.0; count], train_responses: Vec::with_capacity(count * count) }
     }
 
     /// Was this row, which acts, found to repeat others at the last factorisation? So does one to which nothing gives way.
@@ -109,7 +120,7 @@ impl Loops {
             let of: &Cluster = &self.clusters[cluster];
             of.factor.is_redundant(node, row - of.nodes[node].span.first)
         };
-        self.places[row].map_or(!self.rows[row].held, repeats)
+        self.places[row].map_or(!self.rows[row].train_internal, repeats)
     }
 
     /// How many numbers the factors of all components hold at most.
@@ -119,19 +130,15 @@ impl Loops {
 
     /// A new factor is made.
     pub fn begin(&mut self) {
-        self.answers.clear();
+        self.train_responses.clear();
     }
 
     /// Eliminates a component, once all that hangs on its bodies is gone. Joints have their rows in `blocks`. Does the figure
     /// gather?
     #[inline(always)]
-    pub fn factor(
-        &mut self,
-        index: usize,
-        masses: &mut [[f64; NUMBERS]],
-        (blocks, trains, gathering): (&[JointRows], &Trains, bool),
-    ) {
-        self.clusters[index].factor(Source { blocks, rows: &self.rows }, masses, trains, gathering);
+    pub fn factor(&mut self, index: usize, masses: &mut [[f64; NUMBERS]], inputs: LoopInputs) {
+        let LoopInputs { blocks, trains, stabilising } = inputs;
+        self.clusters[index].factor(RowSource { blocks, rows: &self.rows }, masses, trains, stabilising);
     }
 
     /// Begins a solve.
@@ -142,14 +149,14 @@ impl Loops {
 
     /// The way up of a component. `a` lends the accelerations of driven bodies and of trains as if there were nothing else.
     #[inline(always)]
-    pub fn up(&mut self, index: usize, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
-        self.clusters[index].up(b, g, a);
+    pub fn inward(&mut self, index: usize, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
+        self.clusters[index].inward(b, g, a);
     }
 
     /// The way down of a component, after its top.
     #[inline(always)]
-    pub fn down(&mut self, index: usize, b: &[Vec6], lambda: &mut [f64], a: &mut [Vec6]) {
-        self.clusters[index].down(b, lambda, a, &mut self.pushes);
+    pub fn outward(&mut self, index: usize, b: &[Vec6], lambda: &mut [f64], a: &mut [Vec6]) {
+        self.clusters[index].outward(b, lambda, a, &mut self.pushes);
     }
 
     /// What the rows push along each train's coordinate, after a solve.
@@ -161,15 +168,15 @@ impl Loops {
     /// there are few trains: what a rate of each of them calls up is found once.
     pub fn correct_trains(&mut self, trains: &mut Trains) {
         let count = self.pushes.len();
-        if self.answers.is_empty() {
-            self.answers.resize(count * count, 0.0);
-            for (train, pushes) in self.answers.chunks_exact_mut(count.max(1)).enumerate() {
-                self.clusters.iter_mut().for_each(|cluster| cluster.answer_train(train, pushes));
+        if self.train_responses.is_empty() {
+            self.train_responses.resize(count * count, 0.0);
+            for (train, pushes) in self.train_responses.chunks_exact_mut(count.max(1)).enumerate() {
+                self.clusters.iter_mut().for_each(|cluster| cluster.respond_to_train(train, pushes));
             }
         }
         // The answers are the same both ways round.
-        for (push, answers) in self.pushes.iter_mut().zip(self.answers.chunks_exact(count.max(1))) {
-            *push = answers.iter().enumerate().map(|(train, answer)| answer * trains.rate(train)).sum();
+        for (push, train_responses) in self.pushes.iter_mut().zip(self.train_responses.chunks_exact(count.max(1))) {
+            *push = train_responses.iter().enumerate().map(|(train, response)| response * trains.rate(train)).sum();
         }
         for (train, push) in self.pushes.iter().enumerate().filter(|(_, push)| **push != 0.0) {
             trains.add_push(train, *push);

@@ -20,7 +20,7 @@
 //! on a drum: way − r q = const; compounded pulleys multiply the way.
 
 use super::plane;
-use super::{Row, Scene, at, negated};
+use super::{BodyStates, JacobianRow, at, negated};
 use crate::articulation::{Anchor, Axis, Measure};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::Function;
@@ -31,7 +31,7 @@ use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, atan2};
 const OVERTURNED: f64 = 1e-6;
 /// Product of two rotations (as unit quaternions) that are apart by 0.2 rad: cos 0.1. A turn of less is not counted, which is
 /// far from the half turn that the nearest branch allows.
-const HARDLY: f64 = 0.995;
+const COUNT_THRESHOLD: f64 = 0.995;
 
 /// Where bodies are at one time.
 pub trait Poses {
@@ -64,7 +64,7 @@ pub struct Gauge {
     /// S: where the point was at the start, in the frame's node axes (ways).
     origin: Anchor,
     /// Whole turns counted so far.
-    turns: i64,
+    revolutions: i64,
     /// Wrapped angle at the last count, rad, and the relative rotation.
     last: f64,
     counted: DQuat,
@@ -76,7 +76,7 @@ pub struct Reading {
     /// Wrapped angle (rad, beside `turns`) or way (m).
     pub value: f64,
     /// Whole turns.
-    pub turns: i64,
+    pub revolutions: i64,
     /// J on the measured body.
     pub on: Vec6,
     /// J on the body it is measured against.
@@ -88,7 +88,7 @@ pub struct Reading {
 impl Reading {
     /// Angle with its turns (rad), or the way (m).
     pub fn total(&self) -> f64 {
-        self.value + 2.0 * PI * self.turns as f64
+        self.value + 2.0 * PI * self.revolutions as f64
     }
 }
 
@@ -99,14 +99,14 @@ impl Gauge {
             measure,
             start: DQuat::IDENTITY,
             origin: Anchor { body: None, point: DVec3::ZERO },
-            turns: 0,
+            revolutions: 0,
             last: 0.0,
             counted: DQuat::IDENTITY,
         };
         match &measure {
             Measure::Angle { axis, frame } => gauge.start = relative(axis.body, *frame, bodies),
-            Measure::Way { point, direction } => {
-                let p = place(point, bodies);
+            Measure::Displacement { point, direction } => {
+                let p = world_point(point, bodies);
                 let local = direction.body.map_or(p, |i| bodies[i].pose().inverse_point(p));
                 gauge.origin = Anchor { body: direction.body, point: local };
             }
@@ -120,24 +120,24 @@ impl Gauge {
     }
 
     /// Its value and row at a scene.
-    pub fn read(&self, scene: &Scene) -> Reading {
-        let (value, turns) = self.look(scene);
-        Reading { value, turns, ..self.motion(scene) }
+    pub fn read(&self, scene: &BodyStates) -> Reading {
+        let (value, revolutions) = self.current_value(scene);
+        Reading { value, revolutions, ..self.motion(scene) }
     }
 
     /// Its row alone.
     #[inline(always)]
-    fn motion(&self, scene: &Scene) -> Reading {
+    fn motion(&self, scene: &BodyStates) -> Reading {
         match &self.measure {
             Measure::Angle { axis, frame } => {
                 let n = scene.direction(axis);
                 let against = scene.spin(*frame);
                 let m = frame.map_or(DMat3::IDENTITY, |i| scene.frames[i]) * (self.start * axis.direction);
-                let (e, bias) = twist((n.n, n.spin), (m, against));
+                let (e, bias) = axis_gradient((n.n, n.spin), (m, against));
                 let j = vec6(DVec3::ZERO, e);
                 Reading { on: j, against: negated(j), bias, ..Reading::default() }
             }
-            Measure::Way { point, direction } => {
+            Measure::Displacement { point, direction } => {
                 let row = plane::row(scene, point, &self.origin, direction.direction, &Function::Constant(0.0));
                 Reading { on: row.a, against: row.b, bias: row.bias, ..Reading::default() }
             }
@@ -145,10 +145,10 @@ impl Gauge {
     }
 
     /// Its value alone: wrapped angle and turns, or way.
-    fn look(&self, scene: &Scene) -> (f64, i64) {
+    fn current_value(&self, scene: &BodyStates) -> (f64, i64) {
         match &self.measure {
             Measure::Angle { axis, frame } => self.angle(axis, *frame, scene.bodies),
-            Measure::Way { point, direction } => {
+            Measure::Displacement { point, direction } => {
                 (plane::value(scene, point, &self.origin, direction.direction, &Function::Constant(0.0)), 0)
             }
         }
@@ -158,12 +158,12 @@ impl Gauge {
     pub fn total(&self, poses: &(impl Poses + ?Sized)) -> f64 {
         match &self.measure {
             Measure::Angle { axis, frame } => {
-                let (value, turns) = self.angle(axis, *frame, poses);
-                value + 2.0 * PI * turns as f64
+                let (value, revolutions) = self.angle(axis, *frame, poses);
+                value + 2.0 * PI * revolutions as f64
             }
-            Measure::Way { point, direction } => {
-                let normal = aim(direction.body, direction.direction, poses);
-                normal.dot(place(point, poses) - place(&self.origin, poses))
+            Measure::Displacement { point, direction } => {
+                let normal = world_direction(direction.body, direction.direction, poses);
+                normal.dot(world_point(point, poses) - world_point(&self.origin, poses))
             }
         }
     }
@@ -172,15 +172,15 @@ impl Gauge {
     pub fn blocks(&self, bodies: &[RigidBody]) -> (Vec6, Vec6) {
         match &self.measure {
             Measure::Angle { axis, frame } => {
-                let n = aim(axis.body, axis.direction, bodies);
-                let m = aim(*frame, self.start * axis.direction, bodies);
-                let j = vec6(DVec3::ZERO, twist((n, DVec3::ZERO), (m, DVec3::ZERO)).0);
+                let n = world_direction(axis.body, axis.direction, bodies);
+                let m = world_direction(*frame, self.start * axis.direction, bodies);
+                let j = vec6(DVec3::ZERO, axis_gradient((n, DVec3::ZERO), (m, DVec3::ZERO)).0);
                 (j, negated(j))
             }
-            Measure::Way { point, direction } => {
-                let normal = aim(direction.body, direction.direction, bodies);
+            Measure::Displacement { point, direction } => {
+                let normal = world_direction(direction.body, direction.direction, bodies);
                 // The plane's body feels the force at the point itself.
-                let p = place(point, bodies);
+                let p = world_point(point, bodies);
                 let arm = |body: Option<usize>| p - body.map_or(p, |i| bodies[i].position);
                 (at(normal, arm(point.body)), negated(at(normal, arm(direction.body))))
             }
@@ -191,17 +191,17 @@ impl Gauge {
     pub fn count(&mut self, bodies: &[RigidBody]) {
         if let Measure::Angle { axis, frame } = self.measure {
             let d = self.since_start(axis.body, frame, bodies);
-            if d.dot(self.counted) < HARDLY {
-                (self.last, self.turns) = self.angle(&axis, frame, bodies);
+            if d.dot(self.counted) < COUNT_THRESHOLD {
+                (self.last, self.revolutions) = self.angle(&axis, frame, bodies);
                 self.counted = d;
             }
         }
     }
 
     /// Sets the count of turns so that it reads nearest to `total`, rad.
-    pub fn expect(&mut self, bodies: &[RigidBody], total: f64) {
+    pub fn set_nearest_count(&mut self, bodies: &[RigidBody], total: f64) {
         self.count(bodies);
-        self.turns = ((total - self.last) / (2.0 * PI)).round() as i64;
+        self.revolutions = ((total - self.last) / (2.0 * PI)).round() as i64;
     }
 
     /// d.
@@ -222,23 +222,23 @@ impl Gauge {
             raw
         };
         let step = value - self.last;
-        (value, self.turns + i64::from(step < -PI) - i64::from(step > PI))
+        (value, self.revolutions + i64::from(step < -PI) - i64::from(step > PI))
     }
 }
 
 /// Where a point is, world, m.
-pub fn place(anchor: &Anchor, poses: &(impl Poses + ?Sized)) -> DVec3 {
+pub fn world_point(anchor: &Anchor, poses: &(impl Poses + ?Sized)) -> DVec3 {
     anchor.body.map_or(anchor.point, |body| poses.pose(body).point(anchor.point))
 }
 
 /// Where a body's direction points, world.
-pub fn aim(body: Option<usize>, direction: DVec3, poses: &(impl Poses + ?Sized)) -> DVec3 {
+pub fn world_direction(body: Option<usize>, direction: DVec3, poses: &(impl Poses + ?Sized)) -> DVec3 {
     body.map_or(direction, |body| poses.rotation(body) * direction)
 }
 
 /// e and J̇ẋ of the file's head, for the directions n and m with the angular velocities of their bodies.
 #[inline(always)]
-fn twist((n, spin): (DVec3, DVec3), (m, against): (DVec3, DVec3)) -> (DVec3, f64) {
+fn axis_gradient((n, spin): (DVec3, DVec3), (m, against): (DVec3, DVec3)) -> (DVec3, f64) {
     let whole = 1.0 + n.dot(m);
     if whole < OVERTURNED {
         return (n, -against.dot(spin.cross(n)));
@@ -256,36 +256,36 @@ fn relative(body: Option<usize>, frame: Option<usize>, poses: &(impl Poses + ?Si
 }
 
 /// A coupling's value.
-pub fn value(scene: &Scene, terms: &[(Gauge, f64)]) -> f64 {
-    let (mut sum, mut turned) = (0.0, 0.0);
+pub fn value(scene: &BodyStates, terms: &[(Gauge, f64)]) -> f64 {
+    let (mut sum, mut revolutions_sum) = (0.0, 0.0);
     for (gauge, coefficient) in terms {
-        let (value, turns) = gauge.look(scene);
+        let (value, revolutions) = gauge.current_value(scene);
         sum += coefficient * value;
-        turned += coefficient * turns as f64;
+        revolutions_sum += coefficient * revolutions as f64;
     }
-    sum + 2.0 * PI * turned
+    sum + 2.0 * PI * revolutions_sum
 }
 
 /// A coupling's row: its value, and its blocks added to those of the bodies `parts` (every body that a term touches
 /// has a slot there).
-pub fn row(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> Row {
-    Row { value: value(scene, terms), ..motion(scene, terms, parts) }
+pub fn row(scene: &BodyStates, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> JacobianRow {
+    JacobianRow { value: value(scene, terms), ..motion(scene, terms, parts) }
 }
 
 /// The same without its value, which angles are dear to.
 #[inline(always)]
-pub fn motion(scene: &Scene, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> Row {
+pub fn motion(scene: &BodyStates, terms: &[(Gauge, f64)], parts: &mut [(usize, Vec6)]) -> JacobianRow {
     for (_, block) in parts.iter_mut() {
         *block = [0.0; 6];
     }
-    let mut out = Row { length: true, ..Row::default() };
+    let mut out = JacobianRow { length: true, ..JacobianRow::default() };
     for (gauge, coefficient) in terms {
         let reading = gauge.motion(scene);
         out.bias += coefficient * reading.bias;
         let (on, against) = gauge.bodies();
         for (body, block) in [(on, &reading.on), (against, &reading.against)] {
-            let slot = parts.iter_mut().find(|(index, _)| Some(*index) == body);
-            if let Some((_, sum)) = slot {
+            let part = parts.iter_mut().find(|(index, _)| Some(*index) == body);
+            if let Some((_, sum)) = part {
                 add_scaled(sum, *coefficient, block);
             }
         }

@@ -3,7 +3,7 @@
 //! They give the impulse −h c ω_rel', a viscous torque taken at the *end* of the time h. With c = μ|λ|r / |ω_rel| its
 //! size is Coulomb's μ|λ|r while the pivot turns, and the same rows hold it when it stops, at any step length.
 
-use super::Row;
+use super::JacobianRow;
 use soffio_math::DVec3;
 use soffio_math::spatial::vec6;
 
@@ -13,12 +13,12 @@ const STICTION_RATE: f64 = 1e-7;
 const LEAST_VISCOSITY: f64 = 1e-15;
 
 /// The three rows on the first and second body of a joint.
-pub fn rows() -> [Row; 3] {
-    DVec3::AXES.map(|e| Row {
+pub fn rows() -> [JacobianRow; 3] {
+    DVec3::AXES.map(|e| JacobianRow {
         a: vec6(DVec3::ZERO, e),
         b: vec6(DVec3::ZERO, -e),
         value: 0.0,
-        feed: 0.0,
+        prescribed_rate: 0.0,
         bias: 0.0,
         length: false,
     })

@@ -22,7 +22,7 @@ use soffio_math::{DMat3, DVec3};
 
 /// One row between two bodies, or a body and the world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Row {
+pub struct JacobianRow {
     /// J on the constraint's first body.
     pub a: Vec6,
     /// J on its second body; meaningless where that is the world.
@@ -30,7 +30,7 @@ pub struct Row {
     /// C, m or rad.
     pub value: f64,
     /// ḟ, m/s or rad/s.
-    pub feed: f64,
+    pub prescribed_rate: f64,
     /// J̇ẋ − f̈, m/s² or rad/s².
     pub bias: f64,
     /// Is C a length (else an angle)?
@@ -39,7 +39,7 @@ pub struct Row {
 
 /// The bodies' state with their rotations as matrices.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a> {
+pub struct BodyStates<'a> {
     /// States.
     pub bodies: &'a [RigidBody],
     /// Node axes to world axes.
@@ -70,7 +70,7 @@ pub struct Direction {
     pub spin: DVec3,
 }
 
-impl Scene<'_> {
+impl BodyStates<'_> {
     /// Where an anchor is, m.
     pub fn place(&self, anchor: &Anchor) -> DVec3 {
         let Some(index) = anchor.body else { return anchor.point };
@@ -86,12 +86,12 @@ impl Scene<'_> {
         };
         let body = &self.bodies[index];
         let arm = self.frames[index] * (anchor.point - body.properties.center);
-        let turn = body.angular_velocity.cross(arm);
+        let rotational_velocity = body.angular_velocity.cross(arm);
         Point {
             position: body.position + arm,
             arm,
-            velocity: body.velocity + turn,
-            centripetal: body.angular_velocity.cross(turn),
+            velocity: body.velocity + rotational_velocity,
+            centripetal: body.angular_velocity.cross(rotational_velocity),
         }
     }
 

@@ -15,7 +15,7 @@
 //! where the cosine would make it fast near the end and stuck at the start. Where T and N coincide, any axis across
 //! them is as good for this row; the one is taken that the rows beside it leave free.
 
-use super::{Row, Scene, negated};
+use super::{BodyStates, JacobianRow, negated};
 use crate::articulation::Axis;
 use soffio_math::Function;
 use soffio_math::spatial::vec6;
@@ -25,14 +25,20 @@ use soffio_math::{DVec3, atan2, tangents};
 const COINCIDE: f64 = 1e-6;
 
 /// The axis e about which a row turns T against N; `None` where they coincide.
-pub fn axis(scene: &Scene, a: &Axis, b: &Axis) -> Option<DVec3> {
+pub fn axis(scene: &BodyStates, a: &Axis, b: &Axis) -> Option<DVec3> {
     let across = scene.direction(a).n.cross(scene.direction(b).n);
     (across.length() > COINCIDE).then(|| across.normalize())
 }
 
 /// The row. `held` is an axis about which T is held by another row, asked where T and N coincide.
 #[inline(always)]
-pub fn row(scene: &Scene, a: &Axis, b: &Axis, angle: &Function, held: impl FnOnce() -> Option<DVec3>) -> Row {
+pub fn row(
+    scene: &BodyStates,
+    a: &Axis,
+    b: &Axis,
+    angle: &Function,
+    held_axis: impl FnOnce() -> Option<DVec3>,
+) -> JacobianRow {
     let f = angle.at(scene.time);
     let (t, n) = (scene.direction(a), scene.direction(b));
     let (dt, dn) = (t.spin.cross(t.n), n.spin.cross(n.n));
@@ -43,9 +49,16 @@ pub fn row(scene: &Scene, a: &Axis, b: &Axis, angle: &Function, held: impl FnOnc
         let b = t.spin.cross(dt).dot(n.n) + t.n.dot(n.spin.cross(dn)) + 2.0 * dt.dot(dn);
         (across / s, b / s + c * dc * dc / (s * s * s))
     } else {
-        let free = held().and_then(|held| t.n.cross(held).try_normalize());
+        let free = held_axis().and_then(|held_axis| t.n.cross(held_axis).try_normalize());
         (free.unwrap_or_else(|| tangents(t.n).0), 0.0)
     };
     let j = vec6(DVec3::ZERO, e);
-    Row { a: j, b: negated(j), value: atan2(c, s) - f.value, feed: f.rate, bias: bias - f.acceleration, length: false }
+    JacobianRow {
+        a: j,
+        b: negated(j),
+        value: atan2(c, s) - f.value,
+        prescribed_rate: f.rate,
+        bias: bias - f.acceleration,
+        length: false,
+    }
 }

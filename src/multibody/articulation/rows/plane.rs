@@ -10,31 +10,31 @@
 //!
 //! Two planes make a line; three, with f a function of time, carry a point along any path.
 
-use super::{Row, Scene, at, negated};
+use super::{BodyStates, JacobianRow, at, negated};
 use crate::articulation::{Anchor, Axis};
 use soffio_math::DVec3;
 use soffio_math::Function;
 
 /// C alone.
-pub fn value(scene: &Scene, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> f64 {
+pub fn value(scene: &BodyStates, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> f64 {
     let n = scene.direction(&Axis { body: plane.body, direction: normal }).n;
     n.dot(scene.place(point) - scene.place(plane)) - offset.at(scene.time).value
 }
 
 /// The row.
 #[inline(always)]
-pub fn row(scene: &Scene, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> Row {
+pub fn row(scene: &BodyStates, point: &Anchor, plane: &Anchor, normal: DVec3, offset: &Function) -> JacobianRow {
     let f = offset.at(scene.time);
     let (p, s) = (scene.point(point), scene.point(plane));
     let n = scene.direction(&Axis { body: plane.body, direction: normal });
     let d = p.position - s.position;
     let dn = n.spin.cross(n.n);
     let bias = n.n.dot(p.centripetal - s.centripetal) + 2.0 * dn.dot(p.velocity - s.velocity) + n.spin.cross(dn).dot(d);
-    Row {
+    JacobianRow {
         a: at(n.n, p.arm),
         b: negated(at(n.n, s.arm + d)),
         value: n.n.dot(d) - f.value,
-        feed: f.rate,
+        prescribed_rate: f.rate,
         bias: bias - f.acceleration,
         length: true,
     }

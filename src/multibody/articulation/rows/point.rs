@@ -7,17 +7,24 @@
 //!
 //! A nail is the same with the world for the second body; a moving nail, with a driven body.
 
-use super::{Row, Scene, at, negated};
+use super::{BodyStates, JacobianRow, at, negated};
 use crate::articulation::Anchor;
 use soffio_math::DVec3;
 
 /// The three rows.
 #[inline(always)]
-pub fn rows(scene: &Scene, a: &Anchor, b: &Anchor) -> [Row; 3] {
+pub fn rows(scene: &BodyStates, a: &Anchor, b: &Anchor) -> [JacobianRow; 3] {
     let (p, q) = (scene.point(a), scene.point(b));
     let (c, bias) = (p.position - q.position, p.centripetal - q.centripetal);
     std::array::from_fn(|k| {
         let e = DVec3::AXES[k];
-        Row { a: at(e, p.arm), b: negated(at(e, q.arm)), value: c[k], feed: 0.0, bias: bias[k], length: true }
+        JacobianRow {
+            a: at(e, p.arm),
+            b: negated(at(e, q.arm)),
+            value: c[k],
+            prescribed_rate: 0.0,
+            bias: bias[k],
+            length: true,
+        }
     })
 }

@@ -1,4 +1,4 @@
-//! The figure at its start: which joints there are, which of them are the tree's, a loop's or a train's, where their rows lie.
+//! Construction of a system: splits joints between the tree, loops and gear trains, and places their rows.
 
 use std::ops::Range;
 
@@ -7,30 +7,30 @@ use fearless_simd::Level;
 use super::factor::Factor;
 use super::joint::{Joint, RowState, is_only_point, joints, lone_point};
 use super::rows::{Coupling, Rows};
-use super::sleepers::Sleepers;
-use super::{Method, System};
+use super::sleep_state::SleepState;
+use super::{LinearSolver, System};
 use crate::articulation::activity::Activity;
-use crate::articulation::block::MAX_ROWS;
+use crate::articulation::ball_joints::BallJoints;
 use crate::articulation::dense::Dense;
-use crate::articulation::hang::Link;
-use crate::articulation::hung::Hung;
-use crate::articulation::loops::graph::{Component, Graph};
+use crate::articulation::lane_blocks::LaneBlocks;
+use crate::articulation::loops::biconnected::{Component, Graph};
 use crate::articulation::loops::{LoopRow, Loops, Span};
-use crate::articulation::quads::Quads;
 use crate::articulation::rows::coupling::Gauge;
-use crate::articulation::trains::{Asked, Trains};
+use crate::articulation::topology::Link;
+use crate::articulation::trains::{SolveKind, Trains};
 use crate::articulation::tree::{JointRows, Tree};
-use crate::articulation::{Constraint, ConstraintKind, Groups};
+use crate::articulation::{Constraint, ConstraintKind, DisjointSets};
 use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::row_blocks::MAX_ROWS;
 use soffio_math::{DMat3, DVec3};
 
 impl System {
     pub(super) fn with(
         level: Level,
         bodies: &[RigidBody],
-        driven: &[bool],
+        kinematic: &[bool],
         constraints: &[Constraint],
-        (method, trains): (Method, Trains),
+        (method, trains): (LinearSolver, Trains),
     ) -> Self {
         let n = bodies.len();
         let (mut joints, count) = joints(constraints);
@@ -41,32 +41,32 @@ impl System {
         let links: Vec<Link> = joints.iter().map(|joint| joint.link).collect();
         let at: Vec<usize> = joints.iter().map(|joint| joint.at).collect();
         let train: Vec<Option<usize>> = (0..n).map(|body| trains.of(body)).collect();
-        let graph = Graph { driven, train: &train };
+        let graph = Graph { kinematic, train: &train };
         let components = components(&graph, &joints, constraints, &trains);
-        let islands = islands(driven, constraints);
+        let islands = islands(kinematic, constraints);
         let tree = Tree::new(level, &graph, &links, (&at, &points), components, &islands);
         let mut outside = Vec::new();
         let blocks = place_rows(&mut joints, (constraints, bodies), (&tree, &points), method, &mut outside);
         let (couplings, count) = couplings((constraints, bodies), &trains, count, &mut outside);
         for &body in tree.order() {
             if let Some(joint) = tree.joint_of(body).filter(|&joint| points[joint]) {
-                joints[joint].hangs = Some(body);
+                joints[joint].ball_joint_body = Some(body);
             }
         }
-        let hung = Hung::new(&tree, |body| ends(&tree, &joints, body));
+        let ball_joints = BallJoints::new(&tree, |body| ends(&tree, &joints, body));
         let (loops, dense) = match method {
-            Method::Sparse => (Loops::new(outside, &tree, &spans(&joints, &couplings), &trains), None),
-            Method::Dense => (Loops::default(), Some(Dense::new(outside, driven))),
+            LinearSolver::Sparse => (Loops::new(outside, &tree, &spans(&joints, &couplings), &trains), None),
+            LinearSolver::Dense => (Loops::default(), Some(Dense::new(outside, kinematic))),
         };
-        let quads = Quads::new(level, tree.members(), bodies);
+        let lane_blocks = LaneBlocks::new(level, tree.block_bodies(), bodies);
         let rows = Rows::new((constraints, n), joints, couplings, (blocks, count), &trains);
         Self {
             activity: Activity::new(constraints),
-            sleepers: Sleepers::new(n, constraints.len()),
+            sleep_state: SleepState::new(n, constraints.len()),
             rows,
-            factor: Factor { tree, hung, loops, dense, trains, asked: Asked::Impulse },
-            quads,
-            driven: driven.to_vec(),
+            factor: Factor { tree, ball_joints, loops, dense, trains, solve_kind: SolveKind::Impulse },
+            lane_blocks,
+            kinematic: kinematic.to_vec(),
             b: vec![[0.0; 6]; n],
             g: vec![0.0; count],
             a: vec![[0.0; 6]; n],
@@ -76,7 +76,7 @@ impl System {
 }
 
 impl Rows {
-    /// Those of so many numbers, of a figure of `n` bodies; not evaluated yet.
+    /// Rows of joints and couplings with `count` numbers, for `n` bodies; not evaluated yet.
     fn new(
         (constraints, n): (&[Constraint], usize),
         mut joints: Vec<Joint>,
@@ -84,68 +84,70 @@ impl Rows {
         (blocks, count): (Vec<JointRows>, usize),
         trains: &Trains,
     ) -> Self {
-        let various = (0..joints.len()).filter(|&joint| joints[joint].hangs.is_none());
-        let (mut various, of_trains): (Vec<usize>, Vec<usize>) = various.partition(|&joint| !joints[joint].in_train);
-        let outside_trains = various.len();
-        various.extend(of_trains);
-        let rows = |hung: bool| {
-            let joints = joints.iter().filter(move |joint| !joint.in_train && (hung || joint.hangs.is_none()));
+        let general_joints = (0..joints.len()).filter(|&joint| joints[joint].ball_joint_body.is_none());
+        let (mut general_joints, of_trains): (Vec<usize>, Vec<usize>) =
+            general_joints.partition(|&joint| !joints[joint].in_train);
+        let outside_trains = general_joints.len();
+        general_joints.extend(of_trains);
+        let rows = |ball_joints: bool| {
+            let joints =
+                joints.iter().filter(move |joint| !joint.in_train && (ball_joints || joint.ball_joint_body.is_none()));
             let couplings = couplings.iter().filter(|c| !trains.owns(c.constraint)).map(|c| c.at..c.at + 1);
             merged(joints.map(|joint| joint.at..joint.at + joint.capacity).chain(couplings))
         };
-        let (lean, aside) = (rows(true), rows(false));
-        let asked = !(various.is_empty() && couplings.is_empty());
+        let (rows_without_trains, general_rows) = (rows(true), rows(false));
+        let solve_kind = !(general_joints.is_empty() && couplings.is_empty());
         let is_lean = |constraint: usize| !trains.owns(constraint);
         let of_rows = |&body: &usize| {
             let touches = |constraint: &usize| constraints[*constraint].kind.touches(body);
-            let joints = various[..outside_trains].iter().flat_map(|&joint| &joints[joint].constraints);
+            let joints = general_joints[..outside_trains].iter().flat_map(|&joint| &joints[joint].constraints);
             joints.chain(couplings.iter().map(|c| &c.constraint).filter(|c| is_lean(**c))).any(touches)
         };
-        let framed = if asked { (0..n).filter(of_rows).collect() } else { Vec::new() };
+        let framed = if solve_kind { (0..n).filter(of_rows).collect() } else { Vec::new() };
         let mut states = vec![RowState::default(); count];
-        for joint in joints.iter_mut().filter(|joint| joint.hangs.is_some()) {
+        for joint in joints.iter_mut().filter(|joint| joint.ball_joint_body.is_some()) {
             (joint.rows, joint.hard) = (3, 3);
             for state in &mut states[joint.at..joint.at + 3] {
-                (state.length, state.constraint, state.share) = (true, joint.constraints[0], 1.0);
+                (state.length, state.constraint, state.activation) = (true, joint.constraints[0], 1.0);
             }
         }
         Self {
             constraints: constraints.to_vec(),
             joints,
-            various,
+            general_joints,
             outside_trains,
-            lean,
-            aside,
+            rows_without_trains,
+            general_rows,
             couplings,
             blocks,
             states,
-            frames: vec![DMat3::IDENTITY; if asked { n } else { 0 }],
+            frames: vec![DMat3::IDENTITY; if solve_kind { n } else { 0 }],
             framed,
-            gathering: false,
-            told: false,
+            stabilising: false,
+            values_valid: false,
         }
     }
 }
 
-/// Which joints are never anything but a point.
-fn always_points(joints: &[Joint], constraints: &[Constraint], method: Method) -> Vec<bool> {
+/// Whether each joint is always a ball joint.
+fn always_points(joints: &[Joint], constraints: &[Constraint], method: LinearSolver) -> Vec<bool> {
     let is_point = |joint: &Joint| match joint.constraints[..] {
-        [only] => method == Method::Sparse && is_only_point(&constraints[only]),
+        [only] => method == LinearSolver::Sparse && is_only_point(&constraints[only]),
         _ => false,
     };
     joints.iter().map(is_point).collect()
 }
 
-/// Bodies that constraints put together.
-fn islands(driven: &[bool], constraints: &[Constraint]) -> Groups {
-    let mut groups = Groups::new(driven.len());
+/// Sets of bodies connected by constraints.
+fn islands(kinematic: &[bool], constraints: &[Constraint]) -> DisjointSets {
+    let mut groups = DisjointSets::new(kinematic.len());
     for constraint in constraints {
-        groups.join_all((0..driven.len()).filter(|&body| !driven[body] && constraint.kind.touches(body)));
+        groups.join_all((0..kinematic.len()).filter(|&body| !kinematic[body] && constraint.kind.touches(body)));
     }
     groups
 }
 
-/// The components of the graph of joints and couplings, without what trains hold themselves.
+/// Biconnected components of the graph of joints and couplings, without the rows inside gear trains.
 fn components(graph: &Graph, joints: &[Joint], constraints: &[Constraint], trains: &Trains) -> Vec<Component> {
     let links: Vec<Option<Link>> = joints.iter().map(|joint| (!joint.in_train).then_some(joint.link)).collect();
     let touched = |(index, constraint): (usize, &Constraint)| match &constraint.kind {
@@ -159,7 +161,7 @@ fn components(graph: &Graph, joints: &[Joint], constraints: &[Constraint], train
     graph.components(&links, &couplings)
 }
 
-/// Which rows outside the tree are each joint's, then each coupling's.
+/// Rows outside the tree of each joint, then of each coupling.
 fn spans(joints: &[Joint], couplings: &[Coupling]) -> Vec<Span> {
     let of_joint = |joint: &Joint| {
         joint.outside.map_or(Span::default(), |first| Span { first, count: joint.capacity, block: joint.block })
@@ -168,19 +170,19 @@ fn spans(joints: &[Joint], couplings: &[Coupling]) -> Vec<Span> {
     joints.iter().map(of_joint).chain(of_couplings).collect()
 }
 
-/// Says where the rows of each joint are: in a block of its own, and among those outside the tree. Returns the blocks.
+/// Places the rows of each joint: in a block of its own, and among those outside the tree. Returns the blocks.
 fn place_rows(
     joints: &mut [Joint],
     (constraints, bodies): (&[Constraint], &[RigidBody]),
     (tree, points): (&Tree, &[bool]),
-    method: Method,
+    method: LinearSolver,
     outside: &mut Vec<LoopRow>,
 ) -> Vec<JointRows> {
     let mut blocks = Vec::new();
     for (index, joint) in joints.iter_mut().enumerate() {
         joint.point = lone_point(joint, constraints, bodies);
         let closes = !tree.is_bridge(index) && !joint.in_train;
-        if closes || method == Method::Dense {
+        if closes || method == LinearSolver::Dense {
             joint.outside = Some(outside.len());
             let parts: Vec<_> = [Some(joint.link.a), joint.link.b].into_iter().flatten().collect();
             for k in 0..joint.capacity {
@@ -195,7 +197,7 @@ fn place_rows(
     blocks
 }
 
-/// The constraints that couple turns and ways, their numbers from `count` on; returns also how many numbers there are then.
+/// Couplings with their numbers from `count` on; also returns the new count.
 fn couplings(
     (constraints, bodies): (&[Constraint], &[RigidBody]),
     trains: &Trains,
@@ -219,14 +221,14 @@ fn couplings(
     (couplings, count)
 }
 
-/// The joint by which a body hangs, where it is one point always, and both ends of it: the body's and its parent's.
+/// Ball joint of a body, if it is always one: its index, and its points on the body and on the parent.
 fn ends(tree: &Tree, joints: &[Joint], body: usize) -> Option<(usize, (DVec3, DVec3))> {
-    let index = tree.joint_of(body).filter(|&joint| joints[joint].hangs == Some(body))?;
+    let index = tree.joint_of(body).filter(|&joint| joints[joint].ball_joint_body == Some(body))?;
     let joint = &joints[index];
     joint.point.map(|(a, b)| (index, if joint.link.a == body { (a, b) } else { (b, a) }))
 }
 
-/// Ranges that follow each other as one.
+/// Merges adjacent ranges.
 fn merged(ranges: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
     let mut out: Vec<Range<usize>> = Vec::new();
     for range in ranges {
@@ -238,7 +240,7 @@ fn merged(ranges: impl Iterator<Item = Range<usize>>) -> Vec<Range<usize>> {
     out
 }
 
-fn blank_row(at: usize, place: usize, bodies: &[usize], held: bool) -> LoopRow {
+fn blank_row(at: usize, place: usize, bodies: &[usize], train_internal: bool) -> LoopRow {
     let parts = bodies.iter().map(|&body| (body, [0.0; 6])).collect();
-    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], held }
+    LoopRow { at, active: false, parts, place, compliance: [0.0; MAX_ROWS], train_internal }
 }

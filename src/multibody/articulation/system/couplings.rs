@@ -1,45 +1,45 @@
-//! Constraints that couple turns and ways, from step to step: what trains go on from, clutches that slip and hold, counted turns.
+//! State of couplings from step to step: train angles, clutches, counted revolutions.
 
 use super::System;
 use crate::articulation::{Axis, Measure};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::Vec6;
 
-/// A coupling's row, as a clutch asks for it.
+/// Row of a coupling.
 #[derive(Clone, Copy, Debug)]
 pub struct Coupled<'a> {
-    /// λ: 0 where it does not act.
+    /// λ; 0 where it is inactive.
     pub multiplier: f64,
     /// J by bodies.
     pub parts: &'a [(usize, Vec6)],
 }
 
 impl System {
-    /// Lets trains go on from where these bodies were put.
-    pub fn begin_trains(&mut self, bodies: &[RigidBody]) {
+    /// Starts gear trains from the state of these bodies.
+    pub fn start_trains(&mut self, bodies: &[RigidBody]) {
         if !self.has_trains() {
             return;
         }
-        self.quads.look(bodies);
-        self.factor.trains.begin(&self.quads);
+        self.lane_blocks.load(bodies);
+        self.factor.trains.start_at(&self.lane_blocks);
         for (gauge, _) in self.rows.couplings.iter().flat_map(|coupling| &coupling.terms) {
             if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure {
-                self.factor.trains.turned(body, bodies[body].rotation * direction, gauge.total(bodies));
+                self.factor.trains.set_angle(body, bodies[body].rotation * direction, gauge.total(bodies));
             }
         }
-        self.factor.trains.go_on(&self.quads);
-        // What was turned by more than half a turn in a step has been miscounted.
+        self.factor.trains.resume_count(&self.lane_blocks);
+        // A rotation of more than half a revolution in one step has been miscounted.
         for (gauge, _) in self.rows.couplings.iter_mut().flat_map(|coupling| &mut coupling.terms) {
             if let Measure::Angle { axis: Axis { body: Some(body), direction }, frame: None } = gauge.measure
-                && let Some(turn) = self.factor.trains.turn_of(body, bodies[body].rotation * direction)
+                && let Some(angle) = self.factor.trains.angle_of(body, bodies[body].rotation * direction)
             {
-                gauge.expect(bodies, turn);
+                gauge.set_nearest_count(bodies, angle);
             }
         }
     }
 
-    /// Takes over what another system of the same constraints knows of its run: windows and breaks, and counted turns.
-    pub fn exchange_run(&mut self, other: &mut Self) {
+    /// Swaps the history with another system of the same constraints: schedules, breaks and counted revolutions.
+    pub fn swap_history(&mut self, other: &mut Self) {
         std::mem::swap(&mut self.activity, &mut other.activity);
         for (own, others) in self.rows.couplings.iter_mut().zip(&mut other.rows.couplings) {
             std::mem::swap(&mut own.terms, &mut others.terms);
@@ -47,35 +47,35 @@ impl System {
         }
     }
 
-    /// What a coupling was found to be at the last evaluation, and carried in the last solve.
+    /// Row of a coupling at the last evaluation, and its multiplier of the last solve.
     ///
     /// # Panics
     /// Where the constraint is no coupling.
     pub fn coupling(&self, constraint: usize) -> Coupled<'_> {
         let found = self.rows.couplings.iter().find(|coupling| coupling.constraint == constraint);
         let Some(coupling) = found else { panic!("constraint {constraint} is no coupling") };
-        let multiplier = if self.activity.share(constraint) > 0.0 { self.lambda[coupling.at] } else { 0.0 };
+        let multiplier = if self.activity.activation(constraint) > 0.0 { self.lambda[coupling.at] } else { 0.0 };
         Coupled { multiplier, parts: &self.factor.outside()[coupling.outside].parts }
     }
 
-    /// Lets a clutch slip.
+    /// Lets a clutch slip: its row is inactive.
     pub fn let_slip(&mut self, constraint: usize) {
-        self.activity.slip(constraint, true);
+        self.activity.set_slipping(constraint, true);
     }
 
-    /// Lets a clutch hold where the bodies are.
-    pub fn take_hold(&mut self, constraint: usize, bodies: &[RigidBody]) {
-        self.activity.slip(constraint, false);
+    /// Lets a clutch stick at the bodies' present state.
+    pub fn let_stick(&mut self, constraint: usize, bodies: &[RigidBody]) {
+        self.activity.set_slipping(constraint, false);
         for coupling in self.rows.couplings.iter_mut().filter(|coupling| coupling.constraint == constraint) {
             coupling.offset = coupling.terms.iter().map(|(gauge, c)| c * gauge.total(bodies)).sum();
         }
     }
 
-    /// Counts the turns of couplings up to this state; once a step.
-    pub fn count_turns(&mut self, bodies: &[RigidBody]) {
+    /// Counts the revolutions of couplings up to this state; once a step.
+    pub fn count_revolutions(&mut self, bodies: &[RigidBody]) {
         let outside = self.factor.outside();
         for coupling in &mut self.rows.couplings {
-            if outside[coupling.outside].sleeps(&self.sleepers.bodies) {
+            if outside[coupling.outside].sleeps(&self.sleep_state.bodies) {
                 continue;
             }
             for (gauge, _) in &mut coupling.terms {

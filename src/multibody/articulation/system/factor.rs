@@ -1,27 +1,27 @@
-//! The factor of a figure's rows, and what is solved by it: the tree, the rows outside it, the trains.
+//! Factor of all rows: the tree, the loops outside it, the gear trains.
 
 use fearless_simd::Simd;
 
 use super::rows::Rows;
-use crate::articulation::ball::Wanted;
+use crate::articulation::ball_elimination::JointTarget;
+use crate::articulation::ball_joints::BallJoints;
 use crate::articulation::dense::Dense;
-use crate::articulation::hung::Hung;
-use crate::articulation::loops::{LoopRow, Loops};
-use crate::articulation::quads::Quads;
-use crate::articulation::trains::{Asked, Trains};
+use crate::articulation::lane_blocks::LaneBlocks;
+use crate::articulation::loops::{LoopInputs, LoopRow, Loops};
+use crate::articulation::trains::{SolveKind, Trains};
 use crate::articulation::tree::{Form, Tree};
 use soffio_math::spatial::Vec6;
 
-/// Everything that a solve goes through.
+/// Factor of the system.
 #[derive(Clone, Debug)]
 pub(super) struct Factor {
     pub tree: Tree,
-    pub hung: Hung,
+    pub ball_joints: BallJoints,
     pub loops: Loops,
     pub dense: Option<Dense>,
     pub trains: Trains,
-    /// What is being solved for.
-    pub asked: Asked,
+    /// Kind of the next solve.
+    pub solve_kind: SolveKind,
 }
 
 impl Factor {
@@ -30,13 +30,13 @@ impl Factor {
         self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
     }
 
-    /// The same, to be written.
+    /// The same, mutable.
     #[inline(always)]
     pub fn outside_mut(&mut self) -> &mut [LoopRow] {
         self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows)
     }
 
-    /// Leaves out what is joined to bodies that sleep.
+    /// Excludes rows of sleeping bodies.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
         self.tree.let_sleep(asleep);
         self.trains.let_sleep(asleep);
@@ -45,11 +45,11 @@ impl Factor {
         }
     }
 
-    /// Factors rows as they are.
+    /// Factors the rows as evaluated.
     #[inline(always)]
-    pub fn make<S: Simd>(&mut self, simd: S, rows: &Rows, quads: &Quads) {
+    pub fn make<S: Simd>(&mut self, simd: S, rows: &Rows, lane_blocks: &LaneBlocks) {
         if let Some(dense) = &mut self.dense {
-            dense.factor(quads, rows.gathering);
+            dense.factor(lane_blocks, rows.stabilising);
             return;
         }
         let (joints, blocks) = (&rows.joints, &rows.blocks);
@@ -62,28 +62,28 @@ impl Factor {
             }
         };
         self.loops.begin();
-        let of_loops = (&blocks[..], &self.trains, rows.gathering);
-        self.tree.factor(simd, quads.all(), &form, &mut self.loops, of_loops);
+        let inputs = LoopInputs { blocks, trains: &self.trains, stabilising: rows.stabilising };
+        self.tree.factor(simd, lane_blocks.all(), &form, &mut self.loops, inputs);
     }
 
-    /// Solves for `a` and `lambda` from `b` and `g`, by the best instructions there are. `wanted` stands for the `g` of points by
-    /// which bodies hang; what these carry is in the tree.
+    /// Solves for `a` and `lambda` from `b` and `g` at a SIMD level. `wanted` is the target of ball joints, whose
+    /// multipliers stay in the tree.
     #[inline(always)]
     pub fn solve<S: Simd>(
         &mut self,
         simd: S,
-        quads: &Quads,
-        (b, g, wanted): (&mut [Vec6], &[f64], Wanted),
+        lane_blocks: &LaneBlocks,
+        (b, g, wanted): (&mut [Vec6], &[f64], JointTarget),
         (a, lambda): (&mut [Vec6], &mut [f64]),
     ) {
         if let Some(dense) = &mut self.dense {
             dense.solve(b, g, a, lambda);
             return;
         }
-        self.trains.solve(self.asked, quads, b, a);
+        self.trains.solve(self.solve_kind, lane_blocks, b, a);
         self.loops.begin_solve();
-        self.tree.sweep_up(simd, &mut self.loops, (b, g, a), (wanted, lambda));
-        self.tree.sweep_down(simd, &mut self.loops, (b, wanted), (lambda, a));
+        self.tree.sweep_inward(simd, &mut self.loops, (b, g, a), (wanted, lambda));
+        self.tree.sweep_outward(simd, &mut self.loops, (b, wanted), (lambda, a));
         self.trains.push(self.loops.pushes(), a);
     }
 }

@@ -1,22 +1,22 @@
-//! All constraints between one pair of bodies: their rows at a configuration, and the numbers of each row.
+//! Joints: all constraints between one pair of bodies, their rows at a configuration, and the rows' states.
 
 use std::collections::BTreeMap;
 
 use crate::articulation::activity::Activity;
-use crate::articulation::block::MAX_ROWS;
-use crate::articulation::hang::Link;
 use crate::articulation::loops::LoopRow;
-use crate::articulation::rows::{Row, Scene, friction, orientation, plane, point};
+use crate::articulation::rows::{BodyStates, JacobianRow, friction, orientation, plane, point};
+use crate::articulation::topology::Link;
 use crate::articulation::tree::JointRows;
 use crate::articulation::{Anchor, Constraint, ConstraintKind};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
+use soffio_math::spatial::row_blocks::MAX_ROWS;
 use soffio_math::spatial::vec6;
 
-/// Joints farther apart than this are drawn together by the stabiliser, not snapped by projection, m or rad.
-pub(in crate::articulation) const PROJECTION_REACH: f64 = 1e-4;
-/// Most held rows of a pair of bodies, twice over; three of friction may come after them.
-const HELD: usize = MAX_ROWS - 3;
+/// Error above which a row is closed by stabilisation instead of projection, m or rad.
+pub(in crate::articulation) const PROJECTION_LIMIT: f64 = 1e-4;
+/// Most hard rows of a joint; three of friction may follow.
+const MAX_HARD_ROWS: usize = MAX_ROWS - 3;
 
 /// All constraints between one pair of bodies.
 #[derive(Clone, Debug)]
@@ -27,62 +27,62 @@ pub struct Joint {
     pub constraints: Vec<usize>,
     /// Where its numbers begin in `g`, `lambda` and the other lists of rows.
     pub at: usize,
-    /// Most rows that it can have.
+    /// Most rows that it can have at once.
     pub(super) capacity: usize,
     /// Rows at the last evaluation, friction included.
     pub rows: usize,
-    /// Of those, rows that are held.
+    /// Number of hard rows, the first ones.
     pub hard: usize,
-    /// Where it is one point: that point from the two bodies' centres of mass in their node axes (in the world for
-    /// the world), m.
+    /// Of a ball joint: its point from the two bodies' centres of mass in their node axes (in the world for the
+    /// world), m.
     pub(super) point: Option<(DVec3, DVec3)>,
-    /// World arms of the two bodies where it is one point, hard, at the last evaluation; the tree has those of `hangs`.
+    /// World arms of a hard ball joint at the last evaluation; those of `ball_joint_body` are in the tree.
     pub(super) arms: Option<(DVec3, DVec3)>,
-    /// The body that hangs by it, where it is always one point.
-    pub(super) hangs: Option<usize>,
-    /// Its block rows, where it is ever more than a point.
+    /// Child body, where it is always a ball joint.
+    pub(super) ball_joint_body: Option<usize>,
+    /// Index of its row block, where it can be more than a ball joint.
     pub(super) block: Option<usize>,
-    /// First of its rows among those outside the tree, where it is in a loop (or the solver is dense).
+    /// First of its rows outside the tree, where it is in a loop or the solver is dense.
     pub(super) outside: Option<usize>,
-    /// Is it a train's own?
+    /// Whether it is inside a gear train.
     pub(super) in_train: bool,
 }
 
-/// Numbers of a row beside its blocks.
+/// State of a row, beside its Jacobian blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RowState {
     /// C, m or rad.
     pub value: f64,
     /// ḟ.
-    pub(super) feed: f64,
+    pub(super) prescribed_rate: f64,
     /// J̇ẋ − f̈.
     pub(in crate::articulation) bias: f64,
-    /// Is C a length?
+    /// Whether C is a length (else an angle).
     pub(super) length: bool,
-    /// Constraint that it belongs to.
+    /// Index of its constraint.
     pub(in crate::articulation) constraint: usize,
-    /// Share of the force that would hold it.
-    pub(in crate::articulation) share: f64,
-    /// Is it drawn together by the stabiliser: far from closed, or held in part only?
-    pub(in crate::articulation) gathers: bool,
+    /// Activation of its constraint, 0 … 1.
+    pub(in crate::articulation) activation: f64,
+    /// Whether stabilisation closes it: it is far from closed, or partially active.
+    pub(in crate::articulation) stabilised: bool,
 }
 
 impl RowState {
-    /// Takes over a row's numbers.
+    /// Sets the state from an evaluated row.
     #[inline(always)]
-    pub(super) fn set(&mut self, row: &Row, constraint: usize, share: f64) {
-        let gathers = self.gathers;
-        let Row { value, feed, bias, length, .. } = *row;
-        *self = Self { value, feed, bias, length, constraint, share, gathers };
+    pub(super) fn set(&mut self, row: &JacobianRow, constraint: usize, activation: f64) {
+        let stabilised = self.stabilised;
+        let JacobianRow { value, prescribed_rate, bias, length, .. } = *row;
+        *self = Self { value, prescribed_rate, bias, length, constraint, activation, stabilised };
     }
 }
 
 impl Joint {
-    /// Fills this joint's rows for the scene.
+    /// Evaluates this joint's rows.
     #[inline(always)]
     pub(super) fn evaluate(
         &mut self,
-        scene: &Scene,
+        scene: &BodyStates,
         constraints: &[Constraint],
         activity: &Activity,
         blocks: &mut [JointRows],
@@ -90,12 +90,12 @@ impl Joint {
     ) {
         self.arms = None;
         if let (Some((p, q)), None) = (self.point, self.outside)
-            && activity.share(self.constraints[0]) == 1.0
+            && activity.activation(self.constraints[0]) == 1.0
         {
             let a = &scene.bodies[self.link.a];
             let r = scene.frames[self.link.a] * p;
-            let turn = a.angular_velocity.cross(r);
-            let (mut c, mut bias) = (a.position + r, a.angular_velocity.cross(turn));
+            let rotational_velocity = a.angular_velocity.cross(r);
+            let (mut c, mut bias) = (a.position + r, a.angular_velocity.cross(rotational_velocity));
             let mut s = DVec3::ZERO;
             if let Some(index) = self.link.b {
                 let b = &scene.bodies[index];
@@ -107,8 +107,8 @@ impl Joint {
             }
             for k in 0..3 {
                 let state = &mut states[self.at + k];
-                (state.value, state.feed, state.bias) = (c[k], 0.0, bias[k]);
-                (state.length, state.constraint, state.share) = (true, self.constraints[0], 1.0);
+                (state.value, state.prescribed_rate, state.bias) = (c[k], 0.0, bias[k]);
+                (state.length, state.constraint, state.activation) = (true, self.constraints[0], 1.0);
             }
             (self.rows, self.hard) = (3, 3);
             self.arms = Some((r, s));
@@ -120,20 +120,20 @@ impl Joint {
         rows.harden();
         for i in 0..self.constraints.len() {
             let index = self.constraints[i];
-            let share = activity.share(index);
-            if share <= 0.0 {
+            let activation = activity.activation(index);
+            if activation <= 0.0 {
                 continue;
             }
             let constraint = &constraints[index];
             let own = constraint.link().is_some_and(|(a, _)| a == Some(self.link.a));
-            let mut push = |row: Row| {
+            let mut push = |row: JacobianRow| {
                 let k = rows.rows;
-                if k == HELD {
-                    // Six rows hold all there is to hold: more can only repeat.
+                if k == MAX_HARD_ROWS {
+                    // Six rows hold all six DOFs: more can only repeat.
                     return;
                 }
                 (rows.a[k], rows.b[k]) = if own { (row.a, row.b) } else { (row.b, row.a) };
-                states[self.at + k].set(&row, index, share);
+                states[self.at + k].set(&row, index, activation);
                 rows.rows = k + 1;
             };
             match &constraint.kind {
@@ -142,9 +142,9 @@ impl Joint {
                     push(plane::row(scene, point, plane, *normal, offset));
                 }
                 ConstraintKind::Orientation { a, b, angle } => {
-                    let others = || self.constraints.iter().filter(|&&c| c != index && activity.share(c) > 0.0);
-                    let held = || others().find_map(|&c| orientation_axis(scene, &constraints[c]));
-                    push(orientation::row(scene, a, b, angle, held));
+                    let others = || self.constraints.iter().filter(|&&c| c != index && activity.activation(c) > 0.0);
+                    let held_axis = || others().find_map(|&c| orientation_axis(scene, &constraints[c]));
+                    push(orientation::row(scene, a, b, angle, held_axis));
                 }
                 ConstraintKind::Coupling { .. } => {}
             }
@@ -187,15 +187,15 @@ impl Joint {
                 rows.soft = true;
                 rows.compliance[k] = [0.0; MAX_ROWS];
                 rows.compliance[k][k] = friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
-                // It holds no place, and where it stands another row may have stood before.
-                states[self.at + k] = RowState { constraint: index, share: 1.0, ..RowState::default() };
+                // It has no position error; another row may have been at this index before.
+                states[self.at + k] = RowState { constraint: index, activation: 1.0, ..RowState::default() };
                 rows.rows = k + 1;
             }
         }
         self.rows = rows.rows;
     }
 
-    /// Copies the rows to where the dense solver reads them.
+    /// Copies the rows for the dense solver.
     #[inline(always)]
     pub(super) fn write_outside(&self, blocks: &[JointRows], outside: &mut [LoopRow]) {
         let (Some(block), Some(first)) = (self.block, self.outside) else { return };
@@ -211,7 +211,7 @@ impl Joint {
     }
 }
 
-/// Groups constraints by the pair of bodies they connect; also how many numbers their rows need.
+/// Groups constraints by the pair of bodies they connect; also returns the number of rows.
 pub(super) fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
     let mut joints: Vec<Joint> = Vec::new();
     let mut of_pair: BTreeMap<(usize, Option<usize>), usize> = BTreeMap::new();
@@ -236,7 +236,7 @@ pub(super) fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
                 hard: 0,
                 point: None,
                 arms: None,
-                hangs: None,
+                ball_joint_body: None,
                 block: None,
                 outside: None,
                 in_train: false,
@@ -252,15 +252,15 @@ pub(super) fn joints(constraints: &[Constraint]) -> (Vec<Joint>, usize) {
     (joints, at)
 }
 
-/// The axis about which an orientation holds its bodies.
-fn orientation_axis(scene: &Scene, constraint: &Constraint) -> Option<DVec3> {
+/// Axis that an orientation holds.
+fn orientation_axis(scene: &BodyStates, constraint: &Constraint) -> Option<DVec3> {
     match &constraint.kind {
         ConstraintKind::Orientation { a, b, .. } => orientation::axis(scene, a, b),
         _ => None,
     }
 }
 
-/// Both ends of a joint that is one point, as [`Joint::point`] has them.
+/// Both points of a ball joint, as in [`Joint::point`].
 pub(super) fn lone_point(joint: &Joint, constraints: &[Constraint], bodies: &[RigidBody]) -> Option<(DVec3, DVec3)> {
     let [index] = joint.constraints[..] else { return None };
     let ConstraintKind::PointToPoint { a, b } = &constraints[index].kind else { return None };
@@ -275,7 +275,7 @@ fn capacity(joint: &Joint, constraints: &[Constraint]) -> usize {
     joint.constraints.iter().map(each).sum::<usize>().min(MAX_ROWS)
 }
 
-/// Is it a point at all times, and nothing more?
+/// Whether it is always a hard ball joint without friction.
 pub(super) fn is_only_point(constraint: &Constraint) -> bool {
     matches!(constraint.kind, ConstraintKind::PointToPoint { .. })
         && constraint.schedule.is_always()

@@ -1,90 +1,97 @@
-//! The articulated figure: joints, their rows, and one factor that all solves share.
+//! Constraint system of an articulation: joints, their Jacobian rows, and one factor for all solves.
 //!
-//! Used in this order: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
+//! Order of use: [`System::evaluate`] at a configuration, [`System::factor`], then any number of solves:
 //! accelerations, displacements, velocity changes, responses to a unit impulse.
 
 mod build;
-mod closing;
 mod couplings;
 mod factor;
-mod geared;
 mod joint;
+mod position_solve;
 mod report;
 mod rows;
-mod sleepers;
+mod sleep_state;
 mod solve;
+mod train_rows;
 
 use fearless_simd::{Level, dispatch};
 
 use super::Constraint;
 use super::activity::Activity;
-use super::block::{RowSquare, RowVec};
-use super::quads::Quads;
-use super::quads::response;
+use super::lane_blocks::LaneBlocks;
+use super::lane_blocks::effective_inverse_mass;
 use super::trains::Trains;
 use factor::Factor;
-pub use geared::Geared;
-pub(super) use joint::PROJECTION_REACH;
+pub(super) use joint::PROJECTION_LIMIT;
 pub use joint::{Joint, RowState};
-use rows::{Now, Rows};
-use sleepers::Sleepers;
+use rows::{Extent, Now, Rows};
+use sleep_state::SleepState;
 use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::row_blocks::{RowSquare, RowVec};
 use soffio_math::spatial::{Vec6, add_scaled};
+pub use train_rows::TrainRow;
 
-/// Which linear solver finds the multipliers.
+/// Linear solver for the multipliers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// The tree factor, linear in the number of bodies.
+pub enum LinearSolver {
+    /// Articulated-body factorisation with sparse factors of loops; linear in the number of bodies for trees.
     #[default]
     Sparse,
-    /// One dense matrix of all rows: the reference.
+    /// Dense Cholesky of all rows: the reference.
     Dense,
 }
 
-/// Joints, rows and factor of an articulated figure. Nothing here allocates after [`System::new`].
+/// Joints, rows and factor of an articulation. Nothing here allocates after [`System::new`].
 #[derive(Clone, Debug)]
 pub struct System {
-    /// What acts now.
+    /// Activation of the constraints.
     pub activity: Activity,
     rows: Rows,
     factor: Factor,
-    quads: Quads,
-    driven: Vec<bool>,
-    sleepers: Sleepers,
-    /// Right-hand side per body: force (N, N m) or impulse; used up by a solve.
+    lane_blocks: LaneBlocks,
+    kinematic: Vec<bool>,
+    sleep_state: SleepState,
+    /// Right-hand side per body: force (N, N m) or impulse (N s, N m s); a solve overwrites it.
     pub b: Vec<Vec6>,
-    /// Wanted J a per row.
+    /// Right-hand side per row: the wanted J a.
     pub g: Vec<f64>,
-    /// Answer per body: acceleration, velocity change or displacement. Of driven bodies it is given.
+    /// Solution per body: acceleration, velocity change or displacement. For kinematic bodies it is an input.
     pub a: Vec<Vec6>,
-    /// Answer per row: force or impulse. The tree keeps those of points by which bodies hang until [`System::solve`] copies them here.
+    /// Solution per row: force or impulse. Those of ball joints stay in the tree until [`System::solve`] copies them
+    /// here.
     pub lambda: Vec<f64>,
 }
 
 impl System {
-    /// The figure of `bodies` at its start, joined by `constraints`; `driven` says whose motion is given.
-    pub fn new(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
-        Self::at_level(Level::new(), bodies, driven, constraints, method)
+    /// The system of `bodies` in their start state, joined by `constraints`; `kinematic` marks bodies with a
+    /// prescribed motion.
+    pub fn new(bodies: &[RigidBody], kinematic: &[bool], constraints: &[Constraint], method: LinearSolver) -> Self {
+        Self::at_level(Level::new(), bodies, kinematic, constraints, method)
     }
 
-    /// The same without trains, for motion that turns wheels by places: row by row.
-    pub fn without_trains(bodies: &[RigidBody], driven: &[bool], constraints: &[Constraint], method: Method) -> Self {
-        Self::with(Level::new(), bodies, driven, constraints, (method, Trains::default()))
+    /// The same without gear trains, for position-based motion, which solves gears row by row.
+    pub fn without_trains(
+        bodies: &[RigidBody],
+        kinematic: &[bool],
+        constraints: &[Constraint],
+        method: LinearSolver,
+    ) -> Self {
+        Self::with(Level::new(), bodies, kinematic, constraints, (method, Trains::default()))
     }
 
-    /// The same for a processor of this level; what it finds does not depend on it.
+    /// The same for a given SIMD level; the results do not depend on it.
     pub fn at_level(
         level: Level,
         bodies: &[RigidBody],
-        driven: &[bool],
+        kinematic: &[bool],
         constraints: &[Constraint],
-        method: Method,
+        method: LinearSolver,
     ) -> Self {
         let trains = match method {
-            Method::Sparse => Trains::new(bodies, driven, constraints),
-            Method::Dense => Trains::default(),
+            LinearSolver::Sparse => Trains::new(bodies, kinematic, constraints),
+            LinearSolver::Dense => Trains::default(),
         };
-        Self::with(level, bodies, driven, constraints, (method, trains))
+        Self::with(level, bodies, kinematic, constraints, (method, trains))
     }
 
     /// The constraints, in the order given.
@@ -92,113 +99,112 @@ impl System {
         &self.rows.constraints
     }
 
-    /// The joints between pairs of bodies.
+    /// The joints, one for each connected pair of bodies.
     pub fn joints(&self) -> &[Joint] {
         &self.rows.joints
     }
 
-    /// Numbers of all rows.
+    /// States of all rows.
     pub fn states(&self) -> &[RowState] {
         &self.rows.states
     }
 
-    /// Whose motion is given?
-    pub fn driven(&self) -> &[bool] {
-        &self.driven
+    /// Whether each body is kinematic.
+    pub fn kinematic(&self) -> &[bool] {
+        &self.kinematic
     }
 
-    /// The coupling's row at an index, if there is one.
+    /// Row of the coupling at an index, if there is one.
     pub(super) fn coupling_row(&self, index: usize) -> Option<usize> {
         self.rows.couplings.get(index).map(|coupling| coupling.at)
     }
 
-    /// Rows that hold at the last evaluation and are no train's: joint by joint, then couplings.
-    pub(super) fn lean_rows(&self) -> impl Iterator<Item = usize> {
+    /// Hard rows of the last evaluation outside gear trains: joint by joint, then couplings.
+    pub(super) fn rows_without_trains(&self) -> impl Iterator<Item = usize> {
         let joints = self.rows.joints.iter().filter(|joint| !joint.in_train);
         let couplings = self.rows.couplings.iter().filter(|coupling| !self.factor.trains.owns(coupling.constraint));
         joints.flat_map(|joint| joint.at..joint.at + joint.hard).chain(couplings.map(|coupling| coupling.at))
     }
 
-    /// What the bodies of a row answer to it, each alone.
-    pub(super) fn response(&self, row: usize) -> f64 {
-        response(&self.jacobian(row), &self.driven, &self.quads)
+    /// Effective inverse mass of a row with its bodies uncoupled from all others.
+    pub(super) fn uncoupled_inverse_mass(&self, row: usize) -> f64 {
+        effective_inverse_mass(&self.jacobian(row), &self.kinematic, &self.lane_blocks)
     }
 
-    /// The bodies by fours, as they stood at the last evaluation.
-    pub fn quads(&self) -> &Quads {
-        &self.quads
+    /// State of the bodies at the last evaluation, in lane blocks.
+    pub fn lane_blocks(&self) -> &LaneBlocks {
+        &self.lane_blocks
     }
 
-    /// The same, to be moved before an evaluation.
-    pub fn quads_mut(&mut self) -> &mut Quads {
-        &mut self.quads
+    /// The same, mutable, to be moved before an evaluation.
+    pub fn lane_blocks_mut(&mut self) -> &mut LaneBlocks {
+        &mut self.lane_blocks
     }
 
-    /// Is there any joint that looks at the bodies themselves?
-    pub fn asks_bodies(&self) -> bool {
+    /// Whether any row reads the bodies themselves rather than the lane blocks.
+    pub fn reads_bodies(&self) -> bool {
         !self.rows.frames.is_empty()
     }
 
-    /// Evaluates all rows and mass matrices for the bodies' state at the activity's time.
+    /// Evaluates all rows and inertias at the bodies' state and the activity's time.
     pub fn evaluate(&mut self, bodies: &[RigidBody]) {
-        self.quads.look(bodies);
-        self.evaluate_rows(bodies, true, true);
-        self.rows.tell_values(&self.factor);
+        self.lane_blocks.load(bodies);
+        self.evaluate_rows(bodies, Extent { trains: true, coupling_values: true });
+        self.rows.write_values(&self.factor);
     }
 
-    /// The same for the laws of motion, which do not ask for what trains hold of themselves.
-    pub fn evaluate_lean(&mut self, bodies: &[RigidBody]) {
-        self.quads.look(bodies);
-        self.evaluate_rows(bodies, false, true);
-        self.rows.tell_values(&self.factor);
+    /// The same without the rows inside gear trains, for constrained dynamics.
+    pub fn evaluate_without_trains(&mut self, bodies: &[RigidBody]) {
+        self.lane_blocks.load(bodies);
+        self.evaluate_rows(bodies, Extent { trains: false, coupling_values: true });
+        self.rows.write_values(&self.factor);
     }
 
-    /// The same for bodies whose state the quads have. Only where [`System::asks_bodies`] are the bodies looked at.
-    pub fn evaluate_quads(&mut self, bodies: &[RigidBody]) {
-        self.evaluate_rows(bodies, false, true);
+    /// The same at the lane blocks' state. `bodies` are read only where [`System::reads_bodies`].
+    pub fn evaluate_lane_blocks(&mut self, bodies: &[RigidBody]) {
+        self.evaluate_rows(bodies, Extent { trains: false, coupling_values: true });
     }
 
-    /// The same for accelerations alone: C of couplings stays what it was, unless rows are drawn together by it.
+    /// The same for accelerations alone: C of couplings is not updated unless rows are being stabilised.
     pub fn evaluate_motion(&mut self, bodies: &[RigidBody]) {
-        self.evaluate_rows(bodies, false, self.rows.gathering);
+        self.evaluate_rows(bodies, Extent { trains: false, coupling_values: self.rows.stabilising });
     }
 
-    /// Evaluates rows where the quads are, with those of trains or without, and with C of couplings or without.
-    fn evaluate_rows(&mut self, bodies: &[RigidBody], all: bool, values: bool) {
-        let Self { activity, rows, factor, quads, sleepers, .. } = self;
-        let now = Now { bodies, quads, activity, asleep: &sleepers.bodies };
-        dispatch!(quads.level(), simd => rows.evaluate(simd, now, factor, (all, values)));
+    /// Evaluates rows at the lane blocks' state.
+    fn evaluate_rows(&mut self, bodies: &[RigidBody], extent: Extent) {
+        let Self { activity, rows, factor, lane_blocks, sleep_state, .. } = self;
+        let now = Now { bodies, lane_blocks, activity, asleep: &sleep_state.bodies };
+        dispatch!(lane_blocks.level(), simd => rows.evaluate(simd, now, factor, extent));
     }
 
-    /// Leaves these bodies out: they stand still, with all that is joined to them, until they wake. Rows and factor are to be
-    /// made anew.
+    /// Excludes sleeping bodies, with all joints to them, until they wake. Rows and factor must be made anew.
     pub fn let_sleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
-        self.sleepers.set(asleep, &self.rows.constraints, &self.factor.trains);
-        let mut frames = std::mem::take(&mut self.sleepers.frames);
-        self.sleepers.gap = self.largest_length(bodies, true, &mut frames);
-        self.sleepers.frames = frames;
-        self.quads.let_sleep(asleep);
+        self.sleep_state.set(asleep, &self.rows.constraints, &self.factor.trains);
+        let mut frames = std::mem::take(&mut self.sleep_state.frames);
+        self.sleep_state.gap = self.largest_length(bodies, true, &mut frames);
+        self.sleep_state.frames = frames;
+        self.lane_blocks.let_sleep(asleep);
         self.factor.let_sleep(asleep);
         for (body, a) in self.a.iter_mut().enumerate().filter(|(body, _)| asleep[*body]) {
             (*a, self.b[body]) = ([0.0; 6], [0.0; 6]);
         }
     }
 
-    /// Does what a constraint is between sleep?
+    /// Whether a constraint is between sleeping bodies.
     pub fn constraint_sleeps(&self, constraint: usize) -> bool {
-        self.sleepers.constraints[constraint]
+        self.sleep_state.constraints[constraint]
     }
 
-    /// Is any row being drawn together?
-    pub fn gathers(&self) -> bool {
-        self.rows.gathering
+    /// Whether any row is being closed by stabilisation.
+    pub fn is_stabilising(&self) -> bool {
+        self.rows.stabilising
     }
 
-    /// Adds the soft rows of pivot friction for a time `h` (s), with the loads (N) that the joints carry.
+    /// Adds the soft rows of pivot friction for a time step `h` (s), with the loads (N) of the joints.
     pub fn add_friction(&mut self, bodies: &[RigidBody], loads: &[f64], h: f64) {
         let outside = self.factor.outside_mut();
         for (joint, &load) in
-            self.rows.joints.iter_mut().zip(loads).filter(|(joint, _)| !self.sleepers.bodies[joint.link.a])
+            self.rows.joints.iter_mut().zip(loads).filter(|(joint, _)| !self.sleep_state.bodies[joint.link.a])
         {
             joint.add_friction(&self.rows.constraints, bodies, load, h, &mut self.rows.blocks, &mut self.rows.states);
             joint.write_outside(&self.rows.blocks, outside);
@@ -214,13 +220,13 @@ impl System {
         }
     }
 
-    /// Factors the rows as they are.
+    /// Factors the rows as evaluated.
     fn factor_rows(&mut self) {
-        let Self { rows, factor, quads, .. } = self;
-        dispatch!(quads.level(), simd => factor.make(simd, rows, quads));
+        let Self { rows, factor, lane_blocks, .. } = self;
+        dispatch!(lane_blocks.level(), simd => factor.make(simd, rows, lane_blocks));
     }
 
-    /// Adds `s` times a row's transposed blocks to the right-hand side.
+    /// Adds `s` times a row's transposed block to a body's right-hand side.
     pub fn push_impulse(&mut self, body: usize, block: &Vec6, s: f64) {
         add_scaled(&mut self.b[body], s, block);
     }
@@ -230,7 +236,7 @@ impl System {
         self.rows.set_compliance(self.factor.outside_mut(), rows, (k, d));
     }
 
-    /// Are there trains?
+    /// Whether there are gear trains.
     pub fn has_trains(&self) -> bool {
         !self.factor.trains.is_empty()
     }

@@ -1,9 +1,9 @@
-//! What a figure tells of itself: rows, errors, loads. For breaking, friction, tests and staff.
+//! Queries of a system: rows, errors, loads. For breaking, friction, tests and staff.
 
 use super::System;
-use super::joint::{Joint, PROJECTION_REACH, RowState};
-use crate::articulation::rows::{Scene, coupling, orientation, plane};
-use crate::articulation::{Constraint, ConstraintKind};
+use super::joint::{Joint, PROJECTION_LIMIT, RowState};
+use crate::articulation::rows::{BodyStates, coupling, orientation, plane};
+use crate::articulation::{Constraint, ConstraintKind, Load};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::matrix;
 use soffio_math::spatial::{Vec6, angular, linear, vec6};
@@ -15,12 +15,12 @@ impl System {
         self.rows.joints.iter().find(|joint| (joint.at..joint.at + joint.rows).contains(&row))
     }
 
-    /// World arms of a joint that is one point now.
+    /// World arms of a ball joint.
     fn arms_of(&self, joint: &Joint) -> Option<(DVec3, DVec3)> {
-        joint.hangs.map_or(joint.arms, |body| Some(self.factor.tree.arms(body)))
+        joint.ball_joint_body.map_or(joint.arms, |body| Some(self.factor.tree.arms(body)))
     }
 
-    /// J of one row as blocks of the bodies it touches (for tests and reports).
+    /// J of one row as blocks of its bodies (for tests and reports).
     pub fn jacobian(&self, row: usize) -> Vec<(usize, Vec6)> {
         if let Some(joint) = self.joint_of(row) {
             let k = row - joint.at;
@@ -50,14 +50,14 @@ impl System {
         coupling.map_or(0.0, |coupling| self.factor.outside()[coupling.outside].compliance[0])
     }
 
-    /// Rows that act now, as indices into `g` and `lambda`.
+    /// Active rows, as indices into `g` and `lambda`.
     pub fn acting_rows(&self) -> Vec<usize> {
         let mut rows: Vec<usize> = self.rows.joints.iter().flat_map(|joint| joint.at..joint.at + joint.rows).collect();
-        rows.extend(self.rows.couplings.iter().filter(|c| self.activity.share(c.constraint) > 0.0).map(|c| c.at));
+        rows.extend(self.rows.couplings.iter().filter(|c| self.activity.activation(c.constraint) > 0.0).map(|c| c.at));
         rows
     }
 
-    /// Rows found to repeat others at the last factorisation: (constraint, row's index).
+    /// Redundant rows at the last factorisation: (constraint, row's index).
     pub fn redundant_rows(&self) -> Vec<(usize, usize)> {
         let mut out = Vec::new();
         let outside = |index: usize| match &self.factor.dense {
@@ -82,64 +82,64 @@ impl System {
                 }
             }
         }
-        let acting = self.rows.couplings.iter().filter(|coupling| self.activity.share(coupling.constraint) > 0.0);
+        let acting = self.rows.couplings.iter().filter(|coupling| self.activity.activation(coupling.constraint) > 0.0);
         for coupling in acting.filter(|coupling| outside(coupling.outside)) {
             out.push((coupling.constraint, coupling.at));
         }
         out
     }
 
-    /// How many numbers the factors of closed loops hold at most, which is what their elimination costs.
-    pub fn loop_numbers(&self) -> usize {
+    /// Capacity of the factors of closed loops, which determines the cost of their elimination.
+    pub fn loop_factor_len(&self) -> usize {
         self.factor.loops.numbers()
     }
 
-    /// Largest |C| of any held row of the last evaluation (m or rad).
+    /// Largest |C| of any hard row of the last evaluation (m or rad).
     pub fn largest_error(&self) -> f64 {
         self.largest_of(self.rows.joints.iter())
     }
 
-    /// The same without what trains hold of themselves, which the laws of motion do not evaluate.
-    pub fn largest_lean_error(&self) -> f64 {
+    /// The same without rows inside gear trains, which constrained dynamics does not evaluate.
+    pub fn largest_error_without_trains(&self) -> f64 {
         self.largest_of(self.rows.joints.iter().filter(|joint| !joint.in_train))
     }
 
     fn largest_of<'a>(&'a self, joints: impl Iterator<Item = &'a Joint>) -> f64 {
         joints
-            .filter(|joint| joint.hangs.is_none())
+            .filter(|joint| joint.ball_joint_body.is_none())
             .flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard])
-            .fold(self.factor.hung.largest(&self.factor.tree), |worst, state| worst.max(state.value.abs()))
+            .fold(self.factor.ball_joints.largest(&self.factor.tree), |worst, state| worst.max(state.value.abs()))
     }
 
-    /// Largest error of any length that is held, at these bodies' state, m: gaps of points, heights over planes,
-    /// slips of couplings.
+    /// Largest position error at these bodies' state, m: gaps of points, heights over planes, slip of couplings.
     pub fn largest_gap(&self, bodies: &[RigidBody]) -> f64 {
         let mut frames = vec![DMat3::IDENTITY; bodies.len()];
-        self.largest_length(bodies, false, &mut frames).max(self.sleepers.gap)
+        self.largest_length(bodies, false, &mut frames).max(self.sleep_state.gap)
     }
 
-    /// The same of what sleeps alone, or of all else; `frames` lends a matrix a body.
+    /// The same among sleeping constraints or among all others; `frames` is scratch, a matrix a body.
     pub(super) fn largest_length(&self, bodies: &[RigidBody], sleeps: bool, frames: &mut [DMat3]) -> f64 {
-        for (body, frame) in frames.iter_mut().enumerate().filter(|(body, _)| self.sleepers.bodies[*body] == sleeps) {
+        for (body, frame) in frames.iter_mut().enumerate().filter(|(body, _)| self.sleep_state.bodies[*body] == sleeps)
+        {
             *frame = matrix(bodies[body].rotation);
         }
-        let scene = Scene { bodies, frames, time: self.activity.time() };
+        let scene = BodyStates { bodies, frames, time: self.activity.time() };
         let is_length = |c: &Constraint| !matches!(c.kind, ConstraintKind::Orientation { .. });
-        let asked =
-            |index: &usize| self.sleepers.constraints[*index] == sleeps && is_length(&self.rows.constraints[*index]);
-        (0..self.rows.constraints.len()).filter(asked).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)
+        let selected =
+            |index: &usize| self.sleep_state.constraints[*index] == sleeps && is_length(&self.rows.constraints[*index]);
+        (0..self.rows.constraints.len()).filter(selected).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)
     }
 
-    /// The error of each constraint at these bodies' state: m, of an orientation rad. What does not act, or is still being
-    /// drawn together, has none: 0.
+    /// Error of each constraint at these bodies' state: m, of an orientation rad. 0 for those not fully active or
+    /// still reclosing.
     pub fn gaps(&self, bodies: &[RigidBody]) -> Vec<f64> {
         let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
-        let scene = Scene { bodies, frames: &frames, time: self.activity.time() };
+        let scene = BodyStates { bodies, frames: &frames, time: self.activity.time() };
         (0..self.rows.constraints.len()).map(|index| self.gap(index, &scene)).collect()
     }
 
-    fn gap(&self, index: usize, scene: &Scene) -> f64 {
-        if self.activity.share(index) < 1.0 || self.activity.mends(index) {
+    fn gap(&self, index: usize, scene: &BodyStates) -> f64 {
+        if self.activity.activation(index) < 1.0 || self.activity.is_reclosing(index) {
             return 0.0;
         }
         match &self.rows.constraints[index].kind {
@@ -155,20 +155,20 @@ impl System {
         }
     }
 
-    /// The force that each joint's length rows carried in the last solve of forces, into `loads`, N. What sleeps, and what a
-    /// train holds itself, keeps its own.
-    pub fn weigh(&self, loads: &mut [f64]) {
-        self.factor.hung.weigh(&self.factor.tree, &self.sleepers.bodies, loads);
-        for &index in &self.rows.various[..self.rows.outside_trains] {
+    /// Writes the force of each joint's length rows in the last force solve into `loads`, N. Joints of sleeping
+    /// bodies and of gear trains keep their entries.
+    pub fn record_joint_loads(&self, loads: &mut [f64]) {
+        self.factor.ball_joints.record_joint_loads(&self.factor.tree, &self.sleep_state.bodies, loads);
+        for &index in &self.rows.general_joints[..self.rows.outside_trains] {
             let joint = &self.rows.joints[index];
-            if !self.sleepers.bodies[joint.link.a] {
+            if !self.sleep_state.bodies[joint.link.a] {
                 let lengths = (joint.at..joint.at + joint.hard).filter(|&row| self.rows.states[row].length);
                 loads[index] = lengths.fold(0.0, |sum, row| sum + self.lambda[row] * self.lambda[row]).sqrt();
             }
         }
     }
 
-    /// World arms from a joint's bodies to its point at the last evaluation, for stiffness estimates, m.
+    /// World arms from a joint's bodies to its point at the last evaluation, m; for stiffness estimates.
     pub fn arms(&self, joint: usize) -> (DVec3, DVec3) {
         let joint = &self.rows.joints[joint];
         if let Some(arms) = self.arms_of(joint) {
@@ -190,33 +190,34 @@ impl System {
         (longest(&rows.a), longest(&rows.b))
     }
 
-    /// Is a constraint closed, or so nearly that projection keeps it so?
-    pub fn is_together(&self, constraint: usize) -> bool {
-        let apart = |state: &RowState| state.constraint == constraint && state.gathers;
+    /// Whether a constraint is closed, or nearly enough for projection.
+    pub fn is_closed(&self, constraint: usize) -> bool {
+        let apart = |state: &RowState| state.constraint == constraint && state.stabilised;
         let held = self.rows.joints.iter().flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard]);
         !held.chain(self.rows.couplings.iter().map(|c| &self.rows.states[c.at])).any(apart)
     }
 
-    /// What a constraint carried in the last solve: of its lengths, of its angles. The stabiliser's pull on what is far
-    /// apart is no load.
-    pub fn carried(&self, constraint: usize) -> (f64, f64) {
+    /// Load of a constraint in the last solve. The stabiliser's pull on open rows is no load.
+    pub fn constraint_load(&self, constraint: usize) -> Load {
         let (mut force, mut torque) = (0.0, 0.0);
         let joints = self.rows.joints.iter().filter(|joint| joint.constraints.contains(&constraint));
         let of_joint = |joint: &'_ Joint| {
-            let hung = joint.hangs.map(|body| self.factor.tree.force(body).to_array());
+            let ball_joints = joint.ball_joint_body.map(|body| self.factor.tree.force(body).to_array());
             let at = joint.at;
-            (0..joint.hard).map(move |k| (at + k, hung.map_or_else(|| self.lambda[at + k], |hung| hung[k])))
+            (0..joint.hard)
+                .map(move |k| (at + k, ball_joints.map_or_else(|| self.lambda[at + k], |ball_joints| ball_joints[k])))
         };
         let couplings = self.rows.couplings.iter().filter(|c| c.constraint == constraint).map(|c| c.at);
-        let couplings = couplings.filter(|_| self.activity.share(constraint) > 0.0).map(|at| (at, self.lambda[at]));
+        let couplings =
+            couplings.filter(|_| self.activity.activation(constraint) > 0.0).map(|at| (at, self.lambda[at]));
         let own = |&(row, _): &(usize, f64)| {
             let state = &self.rows.states[row];
-            state.constraint == constraint && state.value.abs() <= PROJECTION_REACH
+            state.constraint == constraint && state.value.abs() <= PROJECTION_LIMIT
         };
         for (row, lambda) in joints.flat_map(of_joint).chain(couplings).filter(own) {
             let square = lambda * lambda;
             if self.rows.states[row].length { force += square } else { torque += square }
         }
-        (force.sqrt(), torque.sqrt())
+        Load { force: force.sqrt(), torque: torque.sqrt() }
     }
 }

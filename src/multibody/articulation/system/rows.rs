@@ -1,29 +1,29 @@
-//! The rows of a figure's joints and couplings, as they are at the configuration last evaluated.
+//! Jacobian rows of joints and couplings at the last evaluation.
 
 use std::ops::Range;
 
 use fearless_simd::Simd;
 
 use super::factor::Factor;
-use super::joint::{Joint, PROJECTION_REACH, RowState};
+use super::joint::{Joint, PROJECTION_LIMIT, RowState};
 use crate::articulation::Constraint;
 use crate::articulation::activity::Activity;
-use crate::articulation::block::{RowSquare, RowVec};
+use crate::articulation::lane_blocks::LaneBlocks;
 use crate::articulation::loops::LoopRow;
-use crate::articulation::quads::Quads;
-use crate::articulation::rows::Scene;
+use crate::articulation::rows::BodyStates;
 use crate::articulation::rows::coupling::{self, Gauge};
 use crate::articulation::tree::JointRows;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DMat3;
+use soffio_math::spatial::row_blocks::{RowSquare, RowVec};
 
-/// A constraint that couples turns and ways.
+/// A coupling constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Coupling {
     pub constraint: usize,
     pub at: usize,
     pub terms: Vec<(Gauge, f64)>,
-    /// Subtracted from the value: where a clutch holds.
+    /// Value at which a clutch sticks; subtracted from the coupling's value.
     pub offset: f64,
     /// Index among the loops' rows.
     pub outside: usize,
@@ -34,56 +34,66 @@ pub(super) struct Coupling {
 pub(super) struct Rows {
     pub constraints: Vec<Constraint>,
     pub joints: Vec<Joint>,
-    /// Joints that are not always one point by which a body hangs; first those that are no train's.
-    pub various: Vec<usize>,
-    /// How many of them are no train's.
+    /// Joints that are not always a tree's ball joint; first those outside gear trains.
+    pub general_joints: Vec<usize>,
+    /// Number of those outside gear trains.
     pub outside_trains: usize,
-    /// Numbers of all rows that are no train's; of those of them that are not of points by which bodies hang.
-    pub lean: Vec<Range<usize>>,
-    pub aside: Vec<Range<usize>>,
+    /// Ranges of all rows outside gear trains; and those of them that are not of ball joints.
+    pub rows_without_trains: Vec<Range<usize>>,
+    pub general_rows: Vec<Range<usize>>,
     pub couplings: Vec<Coupling>,
     pub blocks: Vec<JointRows>,
     pub states: Vec<RowState>,
-    /// Rotation matrices, where a row asks for them; the bodies that rows outside trains ask for.
+    /// Rotation matrices of bodies, where any row reads them; the bodies read by rows outside trains.
     pub frames: Vec<DMat3>,
     pub framed: Vec<usize>,
     /// Is any row being drawn together?
-    pub gathering: bool,
-    /// Do the rows' numbers hold the values of the last evaluation?
-    pub told: bool,
+    pub stabilising: bool,
+    /// Whether the states hold C of the last evaluation.
+    pub values_valid: bool,
+}
+
+/// Extent of an evaluation.
+#[derive(Clone, Copy)]
+pub(super) struct Extent {
+    /// Rows inside gear trains too.
+    pub trains: bool,
+    /// C of couplings too.
+    pub coupling_values: bool,
 }
 
 /// A configuration at which rows are evaluated.
 #[derive(Clone, Copy)]
 pub(super) struct Now<'a> {
     pub bodies: &'a [RigidBody],
-    pub quads: &'a Quads,
+    pub lane_blocks: &'a LaneBlocks,
     pub activity: &'a Activity,
     pub asleep: &'a [bool],
 }
 
 impl Rows {
-    /// Evaluates rows where the quads are: `all`, or without those of trains; with C of couplings (`values`) or without.
+    /// Evaluates rows at the lane blocks' state.
     #[inline(always)]
-    pub fn evaluate<S: Simd>(&mut self, simd: S, now: Now, factor: &mut Factor, (all, values): (bool, bool)) {
-        let Now { bodies, quads, activity, asleep } = now;
-        factor.trains.evaluate(quads);
-        factor.hung.evaluate(simd, quads.all(), &mut factor.tree);
-        self.told = false;
-        if all {
+    pub fn evaluate<S: Simd>(&mut self, simd: S, now: Now, factor: &mut Factor, extent: Extent) {
+        let Extent { trains, coupling_values } = extent;
+        let Now { bodies, lane_blocks, activity, asleep } = now;
+        factor.trains.evaluate(lane_blocks);
+        factor.ball_joints.evaluate(simd, lane_blocks.all(), &mut factor.tree);
+        self.values_valid = false;
+        if trains {
             for (body, frame) in self.frames.iter_mut().enumerate().filter(|(body, _)| !asleep[*body]) {
-                *frame = quads.frame(body);
+                *frame = lane_blocks.frame(body);
             }
         } else {
             for &body in self.framed.iter().filter(|&&body| !asleep[body]) {
-                self.frames[body] = quads.frame(body);
+                self.frames[body] = lane_blocks.frame(body);
             }
         }
-        let scene = Scene { bodies, frames: &self.frames, time: activity.time() };
+        let scene = BodyStates { bodies, frames: &self.frames, time: activity.time() };
         let dense = factor.dense.is_some();
         let outside = factor.outside_mut();
-        let asked = if all { self.various.len() } else { self.outside_trains };
-        for &index in &self.various[..asked] {
+        let count = if trains { self.general_joints.len() } else { self.outside_trains };
+        for &index in &self.general_joints[..count] {
             let joint = &mut self.joints[index];
             if asleep[joint.link.a] {
                 continue;
@@ -94,54 +104,54 @@ impl Rows {
             }
         }
         for coupling in &mut self.couplings {
-            let share = activity.share(coupling.constraint);
-            let slot = &mut outside[coupling.outside];
-            if (slot.held && !all) || slot.sleeps(asleep) {
+            let activation = activity.activation(coupling.constraint);
+            let row_outside = &mut outside[coupling.outside];
+            if (row_outside.train_internal && !trains) || row_outside.sleeps(asleep) {
                 continue;
             }
-            slot.active = share > 0.0 && !slot.held;
-            slot.compliance[0] = 0.0;
-            let mut row = coupling::motion(&scene, &coupling.terms, &mut slot.parts);
-            row.value = if values {
+            row_outside.active = activation > 0.0 && !row_outside.train_internal;
+            row_outside.compliance[0] = 0.0;
+            let mut row = coupling::motion(&scene, &coupling.terms, &mut row_outside.parts);
+            row.value = if coupling_values {
                 coupling::value(&scene, &coupling.terms) - coupling.offset
             } else {
                 self.states[coupling.at].value
             };
-            self.states[coupling.at].set(&row, coupling.constraint, share);
+            self.states[coupling.at].set(&row, coupling.constraint, activation);
         }
-        // Whoever draws open joints together, or lets them yield, asks how far they are open.
-        if self.gathering {
-            self.tell_values(factor);
-        }
-    }
-
-    /// C of the point joints into their rows' numbers, if it is not there yet.
-    pub fn tell_values(&mut self, factor: &Factor) {
-        if !self.told {
-            factor.hung.tell_values(&factor.tree, &mut self.states);
-            self.told = true;
+        // Stabilisation and softening read C.
+        if self.stabilising {
+            self.write_values(factor);
         }
     }
 
-    /// Notes which rows are drawn together by the stabiliser: those far from closed, and those of a share below 1.
-    pub fn look_for_gaps(&mut self, factor: &Factor) {
-        let reach = factor.hung.largest(&factor.tree) > PROJECTION_REACH;
-        if reach || self.gathering {
-            self.tell_values(factor);
+    /// Writes C of the ball joints into their states, if it is not there yet.
+    pub fn write_values(&mut self, factor: &Factor) {
+        if !self.values_valid {
+            factor.ball_joints.write_values(&factor.tree, &mut self.states);
+            self.values_valid = true;
         }
-        let rows = if reach || self.gathering { &self.lean } else { &self.aside };
-        self.gathering = false;
+    }
+
+    /// Marks the rows that stabilisation closes: those far from closed, and partially active ones.
+    pub fn classify_rows(&mut self, factor: &Factor) {
+        let any_open = factor.ball_joints.largest(&factor.tree) > PROJECTION_LIMIT;
+        if any_open || self.stabilising {
+            self.write_values(factor);
+        }
+        let rows = if any_open || self.stabilising { &self.rows_without_trains } else { &self.general_rows };
+        self.stabilising = false;
         for rows in rows {
             for state in &mut self.states[rows.clone()] {
-                state.gathers = state.value.abs() > PROJECTION_REACH || state.share < 1.0;
-                self.gathering |= state.gathers;
+                state.stabilised = state.value.abs() > PROJECTION_LIMIT || state.activation < 1.0;
+                self.stabilising |= state.stabilised;
             }
         }
     }
 
-    /// Numbers of the rows that are asked by `g`.
-    pub fn asked(&self) -> &[Range<usize>] {
-        if self.gathering { &self.lean } else { &self.aside }
+    /// Ranges of the rows whose right-hand side is in `g`.
+    pub fn right_hand_rows(&self) -> &[Range<usize>] {
+        if self.stabilising { &self.rows_without_trains } else { &self.general_rows }
     }
 
     /// Writes Γ = D K D among these rows of one joint or of a coupling, D diagonal.

@@ -1,142 +1,145 @@
-//! What the factor is asked: accelerations, displacements, velocity changes.
+//! Solves of the constraint system: accelerations, displacements, velocity changes.
 
 use fearless_simd::dispatch;
 
 use super::System;
-use crate::articulation::ball::Wanted;
-use crate::articulation::trains::Asked;
+use crate::articulation::ball_elimination::JointTarget;
+use crate::articulation::trains::SolveKind;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{angular, dot, linear, vec6};
 
 impl System {
     /// Solves for `a` and `lambda` from `b` and `g`.
     pub fn solve(&mut self) {
-        self.factor.hung.want(&mut self.factor.tree, &self.g);
-        self.solve_for(Wanted::Told);
-        self.tell_multipliers();
+        self.factor.ball_joints.set_targets(&mut self.factor.tree, &self.g);
+        self.solve_for(JointTarget::Told);
+        self.copy_ball_joint_multipliers();
     }
 
-    /// Tells `lambda` what points by which bodies hang carry by the last solve.
-    pub fn tell_multipliers(&mut self) {
-        self.factor.hung.tell_forces(&self.factor.tree, &mut self.lambda);
+    /// Copies the multipliers of ball joints of the last solve into `lambda`.
+    pub fn copy_ball_joint_multipliers(&mut self) {
+        self.factor.ball_joints.write_forces(&self.factor.tree, &mut self.lambda);
     }
 
-    /// The same where nobody asks for the `lambda` of points by which bodies hang, and `wanted` is their `g`. While rows are
-    /// drawn together all asks are in `g`.
-    fn solve_as(&mut self, wanted: Wanted) {
-        if self.rows.gathering { self.solve() } else { self.solve_for(wanted) }
+    /// Solves without copying the ball joints' multipliers; `wanted` is their target. While rows are being
+    /// stabilised, all targets are in `g`.
+    fn solve_as(&mut self, wanted: JointTarget) {
+        if self.rows.stabilising { self.solve() } else { self.solve_for(wanted) }
     }
 
-    fn solve_for(&mut self, wanted: Wanted) {
-        let Self { factor, quads, sleepers, b, g, a, lambda, .. } = self;
-        dispatch!(quads.level(), simd => factor.solve(simd, quads, (b, g, wanted), (a, lambda)));
-        for &body in &sleepers.still {
+    fn solve_for(&mut self, wanted: JointTarget) {
+        let Self { factor, lane_blocks, sleep_state, b, g, a, lambda, .. } = self;
+        dispatch!(lane_blocks.level(), simd => factor.solve(simd, lane_blocks, (b, g, wanted), (a, lambda)));
+        for &body in &sleep_state.tree_bodies {
             a[body] = [0.0; 6];
         }
-        factor.asked = Asked::Impulse;
+        factor.solve_kind = SolveKind::Impulse;
     }
 
-    /// Notes which rows are so far from closed that the stabiliser must draw them together; from the last evaluation.
-    /// So does it rows of a share below 1. The others are closed by projection: their errors at an integrator's inner stages belong to the method.
-    pub fn look_for_gaps(&mut self) {
-        self.rows.look_for_gaps(&self.factor);
+    /// Marks the rows that stabilisation must close: those far from closed at the last evaluation, and partially
+    /// active ones. The others are closed by projection: their errors at an integrator's inner stages belong to the
+    /// method.
+    pub fn classify_rows(&mut self) {
+        self.rows.classify_rows(&self.factor);
     }
 
-    /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ, and − ω₀² C − 2 ω₀ Ċ where rows gather. The
-    /// accelerations of driven bodies stand in `a`.
+    /// Solves for accelerations under the forces in `b`: J a = −J̇ẋ, with Baumgarte terms − ω₀² C − 2 ω₀ Ċ for
+    /// stabilised rows; `omega0` is ω₀, 1/s. The accelerations of kinematic bodies are in `a`.
     pub fn solve_acceleration(&mut self, bodies: &[RigidBody], omega0: f64) {
-        self.factor.asked = Asked::Acceleration;
-        if self.rows.gathering {
-            self.factor.hung.tell_biases(&self.factor.tree, &mut self.rows.states);
+        self.factor.solve_kind = SolveKind::Acceleration;
+        if self.rows.stabilising {
+            self.factor.ball_joints.write_biases(&self.factor.tree, &mut self.rows.states);
             self.rates(bodies);
             for (g, state) in self.g.iter_mut().zip(&self.rows.states) {
                 let omega0 = self.rows.constraints[state.constraint].stabilization_time.map_or(omega0, f64::recip);
-                let drawn = if state.gathers { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
+                let drawn = if state.stabilised { omega0 * (omega0 * state.value + 2.0 * *g) } else { 0.0 };
                 *g = -state.bias - drawn;
             }
         } else {
-            let various = self.rows.various[..self.rows.outside_trains].iter().map(|&joint| &self.rows.joints[joint]);
-            let rows = various.flat_map(|joint| joint.at..joint.at + joint.rows);
+            let general_joints =
+                self.rows.general_joints[..self.rows.outside_trains].iter().map(|&joint| &self.rows.joints[joint]);
+            let rows = general_joints.flat_map(|joint| joint.at..joint.at + joint.rows);
             for row in rows.chain(self.rows.couplings.iter().map(|coupling| coupling.at)) {
                 self.g[row] = -self.rows.states[row].bias;
             }
         }
-        self.solve_as(Wanted::Still);
+        self.solve_as(JointTarget::Still);
     }
 
-    /// Solves for the displacement that closes the joints' position error: J δ = −C, least in kinetic energy.
+    /// Solves for the displacement that closes the position errors: J δ = −C, of least kinetic energy.
     pub fn solve_displacement(&mut self) {
-        self.factor.asked = Asked::Place;
-        if self.rows.gathering {
-            self.rows.tell_values(&self.factor);
+        self.factor.solve_kind = SolveKind::Place;
+        if self.rows.stabilising {
+            self.rows.write_values(&self.factor);
         }
         self.b.fill([0.0; 6]);
-        self.still();
-        for rows in self.rows.asked() {
+        self.hold_kinematic();
+        for rows in self.rows.right_hand_rows() {
             for (g, state) in self.g[rows.clone()].iter_mut().zip(&self.rows.states[rows.clone()]) {
-                *g = if state.gathers { 0.0 } else { -state.value };
+                *g = if state.stabilised { 0.0 } else { -state.value };
             }
         }
-        self.solve_as(Wanted::Closed);
+        self.solve_as(JointTarget::Closed);
     }
 
-    /// Solves for the velocity change that makes J (v + δ) + Γ λ = ḟ: joints hold, soft rows resist. What is still
-    /// being drawn together keeps its speed.
+    /// Solves for the velocity change with J (v + δ) + Γ λ = ḟ: hard rows hold, soft rows resist. Stabilised rows
+    /// keep their speed.
     pub fn solve_velocity(&mut self, bodies: &[RigidBody]) {
         self.b.fill([0.0; 6]);
         self.solve_velocity_under(bodies);
     }
 
-    /// The same where the impulses in `b` act too.
+    /// The same with the impulses in `b`.
     pub fn solve_velocity_under(&mut self, bodies: &[RigidBody]) {
-        self.quads.look(bodies);
+        self.lane_blocks.load(bodies);
         self.solve_rates(bodies);
     }
 
-    /// The same for bodies whose velocities the quads have, see [`System::evaluate_quads`].
-    pub fn solve_velocity_quads(&mut self, bodies: &[RigidBody]) {
+    /// The same for velocities in the lane blocks, see [`System::evaluate_lane_blocks`].
+    pub fn solve_velocity_lane_blocks(&mut self, bodies: &[RigidBody]) {
         self.b.fill([0.0; 6]);
         self.solve_rates(bodies);
     }
 
     fn solve_rates(&mut self, bodies: &[RigidBody]) {
-        self.factor.asked = Asked::Velocity;
-        self.still();
+        self.factor.solve_kind = SolveKind::Velocity;
+        self.hold_kinematic();
         self.rates(bodies);
-        for rows in self.rows.asked() {
+        for rows in self.rows.right_hand_rows() {
             for (g, state) in self.g[rows.clone()].iter_mut().zip(&self.rows.states[rows.clone()]) {
-                *g = if state.gathers { 0.0 } else { -*g };
+                *g = if state.stabilised { 0.0 } else { -*g };
             }
         }
-        self.solve_as(Wanted::Told);
+        self.solve_as(JointTarget::Told);
     }
 
     /// Solves for the velocity change after impulses `b`, joints held: J δ = 0.
     pub fn solve_impulse(&mut self) {
-        for rows in self.rows.asked() {
+        for rows in self.rows.right_hand_rows() {
             self.g[rows.clone()].fill(0.0);
         }
-        self.still();
-        self.solve_as(Wanted::Nothing);
+        self.hold_kinematic();
+        self.solve_as(JointTarget::Nothing);
     }
 
-    /// Driven bodies do not give way.
-    pub(super) fn still(&mut self) {
-        for (a, &driven) in self.a.iter_mut().zip(&self.driven) {
-            if driven {
+    /// Kinematic bodies do not respond.
+    pub(super) fn hold_kinematic(&mut self) {
+        for (a, &kinematic) in self.a.iter_mut().zip(&self.kinematic) {
+            if kinematic {
                 *a = [0.0; 6];
             }
         }
     }
 
-    /// Ċ of every row into `g`; points by which bodies hang are told to come to rest.
+    /// Writes Ċ of every row into `g`, and −Ċ of ball joints as their target.
     fn rates(&mut self, bodies: &[RigidBody]) {
         let coordinates = |body: usize| vec6(bodies[body].velocity, bodies[body].angular_velocity);
-        self.factor.hung.want_rest(self.quads.all(), &mut self.factor.tree);
-        if self.rows.gathering {
-            self.factor.hung.tell_rates(&self.factor.tree, &mut self.g);
+        self.factor.ball_joints.target_zero_rate(self.lane_blocks.all(), &mut self.factor.tree);
+        if self.rows.stabilising {
+            self.factor.ball_joints.write_rates(&self.factor.tree, &mut self.g);
         }
-        for joint in self.rows.various[..self.rows.outside_trains].iter().map(|&joint| &self.rows.joints[joint]) {
+        for joint in self.rows.general_joints[..self.rows.outside_trains].iter().map(|&joint| &self.rows.joints[joint])
+        {
             let at = joint.at;
             match (joint.arms, joint.block) {
                 (Some((r, s)), _) => {
@@ -153,7 +156,7 @@ impl System {
                     let b = joint.link.b.map(coordinates);
                     for k in 0..joint.rows {
                         let against = b.as_ref().map_or(0.0, |b| dot(&rows.b[k], b));
-                        self.g[at + k] = dot(&rows.a[k], &a) + against - self.rows.states[at + k].feed;
+                        self.g[at + k] = dot(&rows.a[k], &a) + against - self.rows.states[at + k].prescribed_rate;
                     }
                 }
                 (None, None) => {}
@@ -163,11 +166,11 @@ impl System {
             let rows = self.factor.outside();
             let parts = &rows[coupling.outside].parts;
             let rate: f64 = parts.iter().map(|(body, block)| dot(block, &coordinates(*body))).sum();
-            self.g[coupling.at] = rate - self.rows.states[coupling.at].feed;
+            self.g[coupling.at] = rate - self.rows.states[coupling.at].prescribed_rate;
         }
     }
 
-    /// Adds the answer `a` to the bodies' velocities.
+    /// Adds the solution `a` to the bodies' velocities.
     pub fn apply_velocity(&self, bodies: &mut [RigidBody]) {
         for (body, a) in bodies.iter_mut().zip(&self.a) {
             body.velocity += linear(a);
@@ -175,14 +178,14 @@ impl System {
         }
     }
 
-    /// Closes the joints: adds the answer of [`System::solve_displacement`] to the quads' places.
-    pub fn close_quads(&mut self) {
-        self.quads.displace(&self.a);
-        self.rows.told = false;
-        let gathering = self.rows.gathering.then_some(&self.rows.states[..]);
-        self.factor.hung.close(&mut self.factor.tree, gathering);
-        for rows in &self.rows.aside {
-            for state in self.rows.states[rows.clone()].iter_mut().filter(|state| !state.gathers) {
+    /// Closes the joints: adds the solution of [`System::solve_displacement`] to the lane blocks' poses.
+    pub fn close_lane_blocks(&mut self) {
+        self.lane_blocks.displace(&self.a);
+        self.rows.values_valid = false;
+        let stabilising = self.rows.stabilising.then_some(&self.rows.states[..]);
+        self.factor.ball_joints.close(&mut self.factor.tree, stabilising);
+        for rows in &self.rows.general_rows {
+            for state in self.rows.states[rows.clone()].iter_mut().filter(|state| !state.stabilised) {
                 state.value = 0.0;
             }
         }

@@ -17,15 +17,15 @@
 //!
 //! A train's joints always act, never break and do not rub; what they carry is not asked.
 
-mod found;
+mod detection;
 
-use super::quads::Quads;
+use super::lane_blocks::LaneBlocks;
 use soffio_math::spatial::{Vec6, add_scaled, angular, dot, linear, vec6};
 use soffio_math::{DQuat, DVec3, PI, Pose, atan2, product, renormalized, rotation, sincos};
 
 /// What the bodies of a train are asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Asked {
+pub enum SolveKind {
     /// The accelerations under forces.
     Acceleration,
     /// Velocity changes that let the joints hold.
@@ -40,9 +40,9 @@ pub enum Asked {
 #[derive(Clone, Copy, Debug)]
 enum Freedom {
     /// Turns about the direction through the point, world axes, m.
-    Turn { about: DVec3, pivot: DVec3 },
+    Revolute { about: DVec3, pivot: DVec3 },
     /// Slides along the direction.
-    Slide(DVec3),
+    Prismatic(DVec3),
 }
 
 /// A body of a train.
@@ -63,7 +63,7 @@ struct Wheel {
     start: Pose,
     /// s and p now.
     twist: Vec6,
-    given: Vec6,
+    prescribed: Vec6,
 }
 
 /// A train.
@@ -75,11 +75,11 @@ struct Train {
     leader: usize,
     /// q at the last count: angle (wrapped, with whole turns) or way.
     angle: f64,
-    turns: i64,
+    revolutions: i64,
     /// q̈ of the last solve.
     rate: f64,
     /// |ρ| of the wheel that told where the train goes on.
-    told: f64,
+    source_ratio: f64,
 }
 
 /// All trains of a figure.
@@ -90,8 +90,8 @@ pub struct Trains {
     /// Which wheel a body is.
     of_body: Vec<Option<usize>>,
     /// Wheels and trains that are awake.
-    turning: Vec<usize>,
-    running: Vec<usize>,
+    awake_wheels: Vec<usize>,
+    awake_trains: Vec<usize>,
     /// Whether each constraint is one of a train's.
     own: Vec<bool>,
 }
@@ -99,11 +99,11 @@ pub struct Trains {
 impl Trains {
     /// Leaves out trains that sleep: a whole train does, or none of it.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
-        let Self { wheels, trains, turning, running, .. } = self;
-        turning.clear();
-        turning.extend((0..wheels.len()).filter(|&wheel| !asleep[wheels[wheel].body]));
-        running.clear();
-        running.extend((0..trains.len()).filter(|&train| !asleep[wheels[trains[train].leader].body]));
+        let Self { wheels, trains, awake_wheels, awake_trains, .. } = self;
+        awake_wheels.clear();
+        awake_wheels.extend((0..wheels.len()).filter(|&wheel| !asleep[wheels[wheel].body]));
+        awake_trains.clear();
+        awake_trains.extend((0..trains.len()).filter(|&train| !asleep[wheels[trains[train].leader].body]));
     }
 
     /// Are there none?
@@ -132,33 +132,35 @@ impl Trains {
     }
 
     /// Lets q be 0 where the bodies were put; [`Trains::turned`] tells better where it is known.
-    pub fn begin(&mut self, quads: &Quads) {
+    pub fn start_at(&mut self, lane_blocks: &LaneBlocks) {
         for wheel in &mut self.wheels {
             match wheel.freedom {
-                Freedom::Turn { about, .. } => {
-                    let d = quads.rotation(wheel.body) * wheel.origin.rotation.conjugate();
+                Freedom::Revolute { about, .. } => {
+                    let d = lane_blocks.rotation(wheel.body) * wheel.origin.rotation.conjugate();
                     let angle = 2.0 * atan2(DVec3::new(d.x, d.y, d.z).dot(about), d.w);
                     wheel.start.rotation = (rotation(about * angle) * wheel.origin.rotation).normalize();
                 }
-                Freedom::Slide(way) => {
-                    let gone = (quads.position(wheel.body) - wheel.origin.position).dot(way);
-                    wheel.start.position = wheel.origin.position + way * gone;
+                Freedom::Prismatic(direction) => {
+                    let gone = (lane_blocks.position(wheel.body) - wheel.origin.position).dot(direction);
+                    wheel.start.position = wheel.origin.position + direction * gone;
                 }
             }
         }
         for train in &mut self.trains {
-            (train.angle, train.turns, train.told) = (0.0, 0, f64::INFINITY);
+            (train.angle, train.revolutions, train.source_ratio) = (0.0, 0, f64::INFINITY);
         }
     }
 
     /// Tells how far a body has turned about an axis since the start, whole turns and all, rad: the train goes on from there,
     /// in the phases of the start, with as many turns of its leader as its slowest wheel says.
-    pub fn turned(&mut self, body: usize, axis: DVec3, angle: f64) {
+    pub fn set_angle(&mut self, body: usize, axis: DVec3, angle: f64) {
         let Some(index) = self.of_body.get(body).copied().flatten() else { return };
-        let Wheel { train: of, freedom: Freedom::Turn { about, .. }, ratio, .. } = self.wheels[index] else { return };
+        let Wheel { train: of, freedom: Freedom::Revolute { about, .. }, ratio, .. } = self.wheels[index] else {
+            return;
+        };
         let train = &mut self.trains[of];
-        if ratio.abs() < train.told {
-            (train.told, train.rate) = (ratio.abs(), angle * axis.dot(about).signum() / ratio);
+        if ratio.abs() < train.source_ratio {
+            (train.source_ratio, train.rate) = (ratio.abs(), angle * axis.dot(about).signum() / ratio);
         }
         for wheel in self.wheels.iter_mut().filter(|wheel| wheel.train == of) {
             wheel.start = wheel.origin;
@@ -166,94 +168,96 @@ impl Trains {
     }
 
     /// Counts on from what [`Trains::turned`] told.
-    pub fn go_on(&mut self, quads: &Quads) {
+    pub fn resume_count(&mut self, lane_blocks: &LaneBlocks) {
         for train in &mut self.trains {
-            if train.told.is_finite() {
-                (train.angle, train.turns) = (0.0, 0);
+            if train.source_ratio.is_finite() {
+                (train.angle, train.revolutions) = (0.0, 0);
             }
         }
-        self.count_turns(quads);
+        self.count_revolutions(lane_blocks);
         for train in &mut self.trains {
-            if train.told.is_finite() {
-                train.turns = ((train.rate - train.angle) / (2.0 * PI)).round() as i64;
+            if train.source_ratio.is_finite() {
+                train.revolutions = ((train.rate - train.angle) / (2.0 * PI)).round() as i64;
             }
         }
     }
 
     /// How far a body has turned about an axis by its train's count, rad.
-    pub fn turn_of(&self, body: usize, axis: DVec3) -> Option<f64> {
+    pub fn angle_of(&self, body: usize, axis: DVec3) -> Option<f64> {
         let wheel = &self.wheels[self.of_body.get(body).copied().flatten()?];
-        let Freedom::Turn { about, .. } = wheel.freedom else { return None };
+        let Freedom::Revolute { about, .. } = wheel.freedom else { return None };
         let train = &self.trains[wheel.train];
-        Some(wheel.ratio * (train.angle + 2.0 * PI * train.turns as f64) * axis.dot(about).signum())
+        Some(wheel.ratio * (train.angle + 2.0 * PI * train.revolutions as f64) * axis.dot(about).signum())
     }
 
     /// Lays out the twists where the bodies are.
     #[inline(always)]
-    pub fn evaluate(&mut self, quads: &Quads) {
-        for &index in &self.turning {
+    pub fn evaluate(&mut self, lane_blocks: &LaneBlocks) {
+        for &index in &self.awake_wheels {
             let wheel = &mut self.wheels[index];
-            if let Freedom::Turn { .. } = wheel.freedom {
-                wheel.twist = wheel.along(quads.frame(wheel.body) * wheel.arm);
+            if let Freedom::Revolute { .. } = wheel.freedom {
+                wheel.twist = wheel.along(lane_blocks.frame(wheel.body) * wheel.arm);
             }
         }
     }
 
     /// The bodies' answer to `b` into `a`, as if there were nothing outside the trains.
     #[inline(always)]
-    pub fn solve(&mut self, asked: Asked, quads: &Quads, b: &[Vec6], a: &mut [Vec6]) {
+    pub fn solve(&mut self, asked: SolveKind, lane_blocks: &LaneBlocks, b: &[Vec6], a: &mut [Vec6]) {
         if self.is_empty() {
             return;
         }
-        if asked == Asked::Place {
-            self.count_turns(quads);
+        if asked == SolveKind::Place {
+            self.count_revolutions(lane_blocks);
         }
         for train in &mut self.trains {
             train.rate = 0.0;
         }
-        for &index in &self.turning {
+        for &index in &self.awake_wheels {
             let wheel = &mut self.wheels[index];
             let train = &mut self.trains[wheel.train];
             match asked {
-                Asked::Impulse => wheel.given = [0.0; 6],
-                Asked::Acceleration => wheel.given = wheel.centripetal(quads),
-                Asked::Velocity => {
-                    let (v, w) = quads.velocity(wheel.body);
-                    wheel.given = vec6(-v, -w);
+                SolveKind::Impulse => wheel.prescribed = [0.0; 6],
+                SolveKind::Acceleration => wheel.prescribed = wheel.centripetal(lane_blocks),
+                SolveKind::Velocity => {
+                    let (v, w) = lane_blocks.velocity(wheel.body);
+                    wheel.prescribed = vec6(-v, -w);
                 }
-                Asked::Place => {
-                    let q = wheel.ratio * (train.angle + 2.0 * PI * (train.turns % wheel.cycle) as f64);
-                    wheel.given = wheel.placing(q, quads);
+                SolveKind::Place => {
+                    let q = wheel.ratio * (train.angle + 2.0 * PI * (train.revolutions % wheel.cycle) as f64);
+                    wheel.prescribed = wheel.placing(q, lane_blocks);
                 }
             }
             let push = &b[wheel.body];
             let along = match asked {
-                Asked::Impulse | Asked::Acceleration => dot(&wheel.twist, push),
-                Asked::Velocity | Asked::Place => dot(&wheel.twist, &wheel.left(push, quads)),
+                SolveKind::Impulse | SolveKind::Acceleration => dot(&wheel.twist, push),
+                SolveKind::Velocity | SolveKind::Place => {
+                    dot(&wheel.twist, &wheel.remaining_impulse(push, lane_blocks))
+                }
             };
             train.rate += wheel.ratio * along;
         }
         for train in &mut self.trains {
             train.rate /= train.mass;
         }
-        for &index in &self.turning {
+        for &index in &self.awake_wheels {
             let wheel = &self.wheels[index];
             let rate = wheel.ratio * self.trains[wheel.train].rate;
-            a[wheel.body] = std::array::from_fn(|k| wheel.given[k] + rate * wheel.twist[k]);
+            a[wheel.body] = std::array::from_fn(|k| wheel.prescribed[k] + rate * wheel.twist[k]);
         }
     }
 
     /// f of a row's part, and its train.
     #[inline(always)]
-    pub fn share(&self, (body, block): &(usize, Vec6)) -> Option<(usize, f64)> {
+    pub fn row_coefficient(&self, (body, block): &(usize, Vec6)) -> Option<(usize, f64)> {
         let wheel = &self.wheels[self.of_body.get(*body).copied().flatten()?];
         Some((wheel.train, wheel.ratio * dot(&wheel.twist, block)))
     }
 
     /// Lets every train's rate be its answer to these f alone.
-    pub fn answer(&mut self, shares: impl Iterator<Item = (usize, f64)>) {
+    pub fn respond(&mut self, coefficients: impl Iterator<Item = (usize, f64)>) {
         self.trains.iter_mut().for_each(|train| train.rate = 0.0);
-        for (train, f) in shares {
+        for (train, f) in coefficients {
             self.trains[train].rate += f / self.trains[train].mass;
         }
     }
@@ -277,24 +281,24 @@ impl Trains {
     /// Adds the answer to impulses (or forces) `f` along each train's coordinate.
     #[inline(always)]
     pub fn push(&self, f: &[f64], a: &mut [Vec6]) {
-        for &index in &self.turning {
+        for &index in &self.awake_wheels {
             let wheel = &self.wheels[index];
-            let more = f[wheel.train];
-            if more != 0.0 {
-                let rate = wheel.ratio * more / self.trains[wheel.train].mass;
+            let impulse = f[wheel.train];
+            if impulse != 0.0 {
+                let rate = wheel.ratio * impulse / self.trains[wheel.train].mass;
                 add_scaled(&mut a[wheel.body], rate, &wheel.twist);
             }
         }
     }
 
     /// Counts q of every train up to where the bodies are.
-    fn count_turns(&mut self, quads: &Quads) {
-        for &index in &self.running {
+    fn count_revolutions(&mut self, lane_blocks: &LaneBlocks) {
+        for &index in &self.awake_trains {
             let train = &mut self.trains[index];
             let wheel = &self.wheels[train.leader];
             match wheel.freedom {
-                Freedom::Turn { about, .. } => {
-                    let d = quads.rotation(wheel.body) * wheel.start.rotation.conjugate();
+                Freedom::Revolute { about, .. } => {
+                    let d = lane_blocks.rotation(wheel.body) * wheel.start.rotation.conjugate();
                     let raw = 2.0 * atan2(DVec3::new(d.x, d.y, d.z).dot(about), d.w);
                     let wrapped = raw
                         - if raw > PI {
@@ -305,10 +309,12 @@ impl Trains {
                             0.0
                         };
                     let step = wrapped - train.angle;
-                    train.turns += i64::from(step < -PI) - i64::from(step > PI);
+                    train.revolutions += i64::from(step < -PI) - i64::from(step > PI);
                     train.angle = wrapped;
                 }
-                Freedom::Slide(way) => train.angle = (quads.position(wheel.body) - wheel.start.position).dot(way),
+                Freedom::Prismatic(direction) => {
+                    train.angle = (lane_blocks.position(wheel.body) - wheel.start.position).dot(direction)
+                }
             }
         }
     }
@@ -319,46 +325,47 @@ impl Wheel {
     #[inline(always)]
     fn along(&self, arm: DVec3) -> Vec6 {
         match self.freedom {
-            Freedom::Turn { about, .. } => vec6(about.cross(arm), about),
-            Freedom::Slide(way) => vec6(way, DVec3::ZERO),
+            Freedom::Revolute { about, .. } => vec6(about.cross(arm), about),
+            Freedom::Prismatic(direction) => vec6(direction, DVec3::ZERO),
         }
     }
 
     /// What a push leaves to the coordinate beside p: b − M p.
     #[inline(always)]
-    fn left(&self, push: &Vec6, quads: &Quads) -> Vec6 {
-        let (mass, p, turn) = (quads.mass(self.body), linear(&self.given), angular(&self.given));
-        let turned: DVec3 = quads.inertia(self.body).mul(turn.into()).into();
-        let mut left = *push;
-        add_scaled(&mut left, -1.0, &vec6(mass * p, turned));
-        left
+    fn remaining_impulse(&self, push: &Vec6, lane_blocks: &LaneBlocks) -> Vec6 {
+        let (mass, p, rotation_vector) =
+            (lane_blocks.mass(self.body), linear(&self.prescribed), angular(&self.prescribed));
+        let set_angle: DVec3 = lane_blocks.inertia(self.body).mul(rotation_vector.into()).into();
+        let mut remaining_impulse = *push;
+        add_scaled(&mut remaining_impulse, -1.0, &vec6(mass * p, set_angle));
+        remaining_impulse
     }
 
     /// ω×(ω×r).
     #[inline(always)]
-    fn centripetal(&self, quads: &Quads) -> Vec6 {
-        let Freedom::Turn { about, .. } = self.freedom else { return [0.0; 6] };
-        let spin = quads.spin(self.body).dot(about);
+    fn centripetal(&self, lane_blocks: &LaneBlocks) -> Vec6 {
+        let Freedom::Revolute { about, .. } = self.freedom else { return [0.0; 6] };
+        let spin = lane_blocks.spin(self.body).dot(about);
         // n×(n×r), and n×r stands in s.
         vec6(spin * spin * about.cross(linear(&self.twist)), DVec3::ZERO)
     }
 
     /// From where it is to where q has it.
-    fn placing(&self, q: f64, quads: &Quads) -> Vec6 {
-        let (now, turned) = (quads.position(self.body), quads.rotation(self.body));
+    fn placing(&self, q: f64, lane_blocks: &LaneBlocks) -> Vec6 {
+        let (now, set_angle) = (lane_blocks.position(self.body), lane_blocks.rotation(self.body));
         match self.freedom {
-            Freedom::Turn { about, pivot } => {
+            Freedom::Revolute { about, pivot } => {
                 let (sine, cosine) = sincos(0.5 * q);
-                let turn = DQuat::from_xyzw(sine * about.x, sine * about.y, sine * about.z, cosine);
-                let goal = renormalized(product(turn, self.start.rotation));
-                let d = goal * turned.conjugate();
-                let turn = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
-                vec6(pivot + goal * self.arm - now, turn)
+                let rotation_vector = DQuat::from_xyzw(sine * about.x, sine * about.y, sine * about.z, cosine);
+                let goal = renormalized(product(rotation_vector, self.start.rotation));
+                let d = goal * set_angle.conjugate();
+                let rotation_vector = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
+                vec6(pivot + goal * self.arm - now, rotation_vector)
             }
-            Freedom::Slide(way) => {
-                let d = self.start.rotation * turned.conjugate();
-                let turn = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
-                vec6(self.start.position + way * q - now, turn)
+            Freedom::Prismatic(direction) => {
+                let d = self.start.rotation * set_angle.conjugate();
+                let rotation_vector = DVec3::new(d.x, d.y, d.z) * (2.0 * d.w.signum());
+                vec6(self.start.position + direction * q - now, rotation_vector)
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::contact::ForceSource;
 use super::contact_forces::ContactForce;
 use super::state::Contacts;
-use crate::collision::Pair;
+use crate::collision::ColliderPair;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 
@@ -37,7 +37,7 @@ impl Contacts {
     }
 
     fn report(&self, pair: usize, force: &ContactForce, bodies: &[RigidBody]) -> ContactReport {
-        let Pair { a, b } = self.surfaces.pairs[pair].pair;
+        let ColliderPair { a, b } = self.surfaces.pairs[pair].pair;
         let [first, second] = [a, b].map(|collider| self.surfaces.colliders[collider].body);
         let velocity = |body: Option<usize>| {
             body.map_or(DVec3::ZERO, |b| {

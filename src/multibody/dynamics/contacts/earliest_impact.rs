@@ -73,7 +73,7 @@ impl Contacts {
 
 #[cfg(test)]
 mod tests {
-    use crate::collision::{Collider, Reach, Shape, pairs};
+    use crate::collision::{Collider, ReachableVolumes, Shape, pairs};
     use crate::dynamics::forces::Damping;
     use crate::dynamics::{Articulation, Dynamics, Integrator, RollingResistance, Settings, Solver, SurfacePair};
     use soffio_geometry::bodies::{MassProperties, RigidBody};
@@ -108,7 +108,7 @@ mod tests {
             limits: &[],
             springs: &[],
             kinematic_bodies: &[],
-            pairs: pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
+            pairs: pairs(&colliders, &[], &ReachableVolumes::default()).meet.into_iter().map(surface).collect(),
             colliders: &colliders,
         };
         let settings = Settings {

@@ -1,14 +1,14 @@
 //! Surface pairs and impact events.
 
 use super::contact::RollingResistance;
-use crate::collision::Pair;
+use crate::collision::ColliderPair;
 use soffio_math::DVec3;
 
 /// A pair of colliders that can touch, with the coefficients of their contact.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfacePair {
     /// Indices of the two colliders.
-    pub pair: Pair,
+    pub pair: ColliderPair,
     /// Energetic coefficient of restitution, 0 … 1.
     pub restitution: f64,
     /// Coulomb coefficient of friction.

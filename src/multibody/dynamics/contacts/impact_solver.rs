@@ -22,7 +22,7 @@ use super::reduced_coordinates::Mechanisms;
 use super::state::Contacts;
 use super::surfaces::PointGeometry;
 use crate::articulation::System;
-use crate::collision::{ManifoldPoint, TOUCH};
+use crate::collision::{CONTACT_MARGIN, ManifoldPoint};
 use crate::dynamics::impulse::impulse;
 use crate::dynamics::limits::BoundRow;
 use crate::dynamics::step::SubstepSpan;
@@ -96,7 +96,7 @@ pub fn resolve_point_impact(
     system: &mut System,
     bodies: &mut [RigidBody],
 ) -> Option<PointImpactResult> {
-    let mechanisms = Mechanisms::new(system.constraints(), system.driven());
+    let mechanisms = Mechanisms::new(system.constraints(), system.kinematic());
     let stabilization = Stabilization { rows: system.states().len(), time: STABILIZATION_TIME };
     let mut problem = ContactProblem::new(1, mechanisms, stabilization);
     let kind = ContactKind::Point { pair: 0, friction: impact.friction };
@@ -194,7 +194,7 @@ impl Contacts {
                 (at.gap, -self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal))
             }
         };
-        if speed > REST_SPEED { (gap - 0.5 * TOUCH) / speed } else { 0.0 }
+        if speed > REST_SPEED { (gap - 0.5 * CONTACT_MARGIN) / speed } else { 0.0 }
     }
 
     /// Collects all approaching contacts between the two bodies of a source.
@@ -238,7 +238,7 @@ impl Contacts {
         let nearest = manifold.points().iter().fold(f64::INFINITY, |least, p| least.min(p.gap));
         for at in manifold.points() {
             let speed = -self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal);
-            if speed > 0.0 && (at.gap <= TOUCH + SIMULTANEOUS * speed || (with_impact && at.gap == nearest)) {
+            if speed > 0.0 && (at.gap <= CONTACT_MARGIN + SIMULTANEOUS * speed || (with_impact && at.gap == nearest)) {
                 let at = PointGeometry { point: at.point, normal: manifold.normal, gap: at.gap };
                 self.surfaces.push_point(&mut self.problem, pair, at, bodies);
             }
@@ -337,14 +337,15 @@ impl Contacts {
             }
             let manifold = self.surfaces.manifold(pair, bodies);
             let approaches = |at: &ManifoldPoint| {
-                at.gap <= TOUCH && self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
+                at.gap <= CONTACT_MARGIN
+                    && self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
             };
             if manifold.points().iter().any(approaches) {
                 return Some(ContactSource::Pair(pair));
             }
         }
         let approaches =
-            |b: &usize| !self.limits.is_asleep(*b) && self.limits.approaches(*b, bodies, TOUCH, REST_SPEED);
+            |b: &usize| !self.limits.is_asleep(*b) && self.limits.approaches(*b, bodies, CONTACT_MARGIN, REST_SPEED);
         (0..self.limits.count()).find(approaches).map(ContactSource::Limit)
     }
 }

@@ -1,7 +1,7 @@
 //! Broad phase of contact: pairs of colliders whose swept boxes overlap.
 
 use super::surfaces::Surfaces;
-use crate::collision::{BroadPhase, Collider, Pair, Sweep, TimeOfImpact, time_of_impact};
+use crate::collision::{BroadPhase, Collider, ColliderPair, MovingCollider, Sweep, TimeOfImpact, time_of_impact};
 use soffio_geometry::bodies::RigidBody;
 
 /// The pairs of an articulation's colliders that are near each other.
@@ -27,11 +27,11 @@ pub(super) struct SweptPair {
 
 impl NearbyPairs {
     /// The broad phase of these pairs, for so many bodies.
-    pub fn new(colliders: &[Collider], pairs: &[Pair], bodies: usize) -> Self {
+    pub fn new(colliders: &[Collider], pairs: &[ColliderPair], bodies: usize) -> Self {
         Self {
             broad: BroadPhase::new(colliders, pairs),
             list: Vec::with_capacity(pairs.len()),
-            sweeps: vec![Sweep::STILL; bodies],
+            sweeps: vec![Sweep::STATIC; bodies],
             measured: 0,
             #[cfg(test)]
             all: None,
@@ -63,19 +63,27 @@ impl NearbyPairs {
 
     /// The motions of a pair's colliders, and when they come into contact.
     pub fn sweep_pair(&mut self, surfaces: &mut Surfaces, pair: usize) -> SweptPair {
-        let Pair { a, b } = surfaces.pairs[pair].pair;
+        let ColliderPair { a, b } = surfaces.pairs[pair].pair;
         self.measured += 1;
         let (sweep_a, sweep_b) = (self.sweep(surfaces, a), self.sweep(surfaces, b));
         let impact = time_of_impact(
-            &mut surfaces.corners,
-            (&surfaces.colliders[a], &sweep_a, surfaces.bounding_radii[a]),
-            (&surfaces.colliders[b], &sweep_b, surfaces.bounding_radii[b]),
+            &surfaces.corners,
+            MovingCollider {
+                collider: &surfaces.colliders[a],
+                sweep: &sweep_a,
+                bounding_radius: surfaces.bounding_radii[a],
+            },
+            MovingCollider {
+                collider: &surfaces.colliders[b],
+                sweep: &sweep_b,
+                bounding_radius: surfaces.bounding_radii[b],
+            },
         );
         SweptPair { sweeps: [sweep_a, sweep_b], impact }
     }
 
     /// The motion of a collider.
     pub fn sweep(&self, surfaces: &Surfaces, collider: usize) -> Sweep {
-        surfaces.colliders[collider].body.map_or(Sweep::STILL, |body| self.sweeps[body])
+        surfaces.colliders[collider].body.map_or(Sweep::STATIC, |body| self.sweeps[body])
     }
 }

@@ -22,7 +22,7 @@
 use super::contact::{Contact, IndexRange};
 use super::jacobian_row::{JacobianRow, MAX_ROW_BODIES};
 use super::open_joints::{OpenJoints, Stabilization};
-use crate::articulation::{Constraint, Geared, Groups, System};
+use crate::articulation::{Constraint, DisjointSets, System, TrainRow};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, angular, linear};
 use soffio_math::{DMat3, DVec3};
@@ -47,7 +47,7 @@ impl Mechanisms {
     /// The mechanisms that these constraints make of the bodies that are not kinematic.
     pub fn new(constraints: &[Constraint], is_kinematic: &[bool]) -> Self {
         let n = is_kinematic.len();
-        let mut groups = Groups::new(n);
+        let mut groups = DisjointSets::new(n);
         let mut free = vec![true; n];
         for constraint in constraints {
             let connected = || (0..n).filter(|&body| !is_kinematic[body] && constraint.kind.touches(body));
@@ -92,7 +92,7 @@ pub(super) struct NodeBlock {
 struct MechanismRow {
     row: usize,
     block: usize,
-    geared: Option<Geared<MAX_ROW_BODIES>>,
+    train_row: Option<TrainRow<MAX_ROW_BODIES>>,
 }
 
 /// The nodes of the problem and the factor B of its rows.
@@ -200,7 +200,7 @@ impl ReducedCoordinates {
                     self.mechanism_rows.extend((contact.rows.start..).take(own.len()).map(|row| MechanismRow {
                         row,
                         block,
-                        geared: None,
+                        train_row: None,
                     }));
                 }
             }
@@ -241,7 +241,7 @@ impl ReducedCoordinates {
         if open.is_empty() && system.has_trains() {
             for own in mechanism_rows.iter_mut() {
                 let body = nodes[blocks[own.block].node].body;
-                own.geared = system.geared(&within(mechanisms, &rows[own.row], body));
+                own.train_row = system.train_row(&within(mechanisms, &rows[own.row], body));
             }
         }
         open.begin_columns(mechanism_rows.len());
@@ -256,7 +256,7 @@ impl ReducedCoordinates {
                 let mut any = false;
                 for node in 0..self.nodes.len() {
                     let Node { rows: own, .. } = self.nodes[node];
-                    if own.start + k < own.end && self.mechanism_rows[own.start + k].geared.is_none() {
+                    if own.start + k < own.end && self.mechanism_rows[own.start + k].train_row.is_none() {
                         self.push(own.start + k, rows, system);
                         any = true;
                     }
@@ -271,12 +271,12 @@ impl ReducedCoordinates {
                     continue;
                 }
                 let pushed = start + k;
-                match &self.mechanism_rows[pushed].geared {
-                    Some(geared) => {
-                        system.answer_geared(geared);
+                match &self.mechanism_rows[pushed].train_row {
+                    Some(train_row) => {
+                        system.respond_to_train_row(train_row);
                         for other in pushed..end {
-                            if let Some(row) = &self.mechanism_rows[other].geared {
-                                self.set_symmetric(node, other - start, k, system.geared_rate(row));
+                            if let Some(row) = &self.mechanism_rows[other].train_row {
+                                self.set_symmetric(node, other - start, k, system.train_row_rate(row));
                             }
                         }
                     }
@@ -288,7 +288,7 @@ impl ReducedCoordinates {
                             self.open.take_column(pushed, system);
                         }
                         for other in start..end {
-                            if other >= pushed || self.mechanism_rows[other].geared.is_some() {
+                            if other >= pushed || self.mechanism_rows[other].train_row.is_some() {
                                 let value = self.along(other, rows, &system.a);
                                 self.set_symmetric(node, other - start, k, value);
                             }

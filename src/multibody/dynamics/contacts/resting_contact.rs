@@ -15,13 +15,13 @@ use super::jacobian_row::{point_rows, rolling_resistance_rows};
 use super::state::Contacts;
 use super::surfaces::PointGeometry;
 use crate::articulation::System;
-use crate::collision::TOUCH;
+use crate::collision::CONTACT_MARGIN;
 use crate::dynamics::step::ImpactScheme;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 
 /// Contact slop, m: resting contacts are held anywhere within this gap. A wider gap may close within one substep.
-pub(super) const LAYER: f64 = TOUCH;
+pub(super) const LAYER: f64 = CONTACT_MARGIN;
 /// Farthest that bodies are moved apart after one substep, m.
 pub(super) const MAX_PUSH: f64 = 1e-3;
 
@@ -365,7 +365,7 @@ impl Contacts {
         for contact in &self.problem.contacts {
             let ContactKind::Clutch { clutch, slips: false, .. } = contact.kind else { continue };
             let constraint = self.clutches.stick(clutch, contact.impulse.x / h);
-            system.take_hold(constraint, bodies);
+            system.let_stick(constraint, bodies);
             self.forces.active.retain(|force| force.source != ForceSource::Clutch(clutch));
             any = true;
         }

@@ -3,7 +3,7 @@
 use super::contact::ContactSource;
 use super::earliest_impact::EarliestImpact;
 use super::state::Contacts;
-use crate::collision::{Manifold, TOUCH};
+use crate::collision::{CONTACT_MARGIN, Manifold};
 use soffio_geometry::bodies::RigidBody;
 
 impl Contacts {
@@ -39,7 +39,7 @@ impl Contacts {
         for index in 0..self.nearby.list.len() {
             let pair = self.nearby.list[index];
             let Some(sleeper) = self.sleeping.one_of(self.surfaces.bodies_of(pair)) else { continue };
-            let is_closed = |manifold: Manifold| manifold.points().iter().any(|at| at.gap <= TOUCH);
+            let is_closed = |manifold: Manifold| manifold.points().iter().any(|at| at.gap <= CONTACT_MARGIN);
             if impact.source == ContactSource::Pair(pair)
                 || (self.surfaces.may_touch(pair, bodies) && is_closed(self.surfaces.manifold(pair, bodies)))
             {

@@ -13,7 +13,7 @@ use super::sleeping_bodies::SleepingBodies;
 use super::surfaces::Surfaces;
 use super::time_stepping::PendingImpact;
 use crate::articulation::{Constraint, Limit};
-use crate::collision::{Collider, ManifoldPoint, Pair, TOUCH};
+use crate::collision::{CONTACT_MARGIN, Collider, ColliderPair, ManifoldPoint};
 use crate::dynamics::clutches::Clutches;
 use crate::dynamics::limits::{BoundRow, Limits};
 use soffio_geometry::bodies::RigidBody;
@@ -85,7 +85,7 @@ impl Contacts {
         let rolling = pairs.iter().filter(|surface| !surface.resistance.is_none()).count();
         let contacts = crate::collision::MANIFOLD_POINTS * (pairs.len() + rolling) + limits.count() + clutches.count();
         let problem = ContactProblem::new(contacts, Mechanisms::new(constraints, is_kinematic), stabilization);
-        let bare: Vec<Pair> = pairs.iter().map(|surface| surface.pair).collect();
+        let bare: Vec<ColliderPair> = pairs.iter().map(|surface| surface.pair).collect();
         Self {
             nearby: NearbyPairs::new(colliders, &bare, bodies.len()),
             resting: RestingSet::new(pairs.len()),
@@ -165,7 +165,7 @@ impl Contacts {
             let pair = self.nearby.list[index];
             let manifold = self.surfaces.manifold(pair, bodies);
             let speed = |at: &ManifoldPoint| self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal);
-            let mut closed = manifold.points().iter().filter(|at| at.gap <= TOUCH).peekable();
+            let mut closed = manifold.points().iter().filter(|at| at.gap <= CONTACT_MARGIN).peekable();
             if closed.peek().is_some() && closed.all(|at| speed(at).abs() < REST_SPEED) {
                 self.resting.set_pair(pair, true);
             }

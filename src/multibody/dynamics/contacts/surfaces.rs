@@ -5,7 +5,7 @@ use super::contact_problem::ContactProblem;
 use super::impact::SurfacePair;
 use super::jacobian_row::point_rows;
 use super::nearby_pairs::SweptPair;
-use crate::collision::{Collider, Corners, Manifold, Pair, TOUCH};
+use crate::collision::{CONTACT_MARGIN, Collider, ColliderPair, Manifold, ManifoldBuilder};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, Pose};
 
@@ -21,7 +21,7 @@ pub(super) struct Surfaces {
     /// Ball around each collider's core: centre in the node frame, and radius, m.
     balls: Vec<(DVec3, f64)>,
     pub pairs: Vec<SurfacePair>,
-    pub corners: Corners,
+    pub corners: ManifoldBuilder,
 }
 
 /// Where two surfaces are in contact.
@@ -38,11 +38,11 @@ pub(super) struct PointGeometry {
 impl Surfaces {
     /// The surfaces of these colliders, with the pairs that can touch.
     pub fn new(colliders: &[Collider], pairs: Vec<SurfacePair>, bodies: &[RigidBody]) -> Self {
-        let radius = |c: &Collider| c.body.map_or(0.0, |b| c.shape.reach(bodies[b].properties.center));
+        let radius = |c: &Collider| c.body.map_or(0.0, |b| c.shape.bounding_radius(bodies[b].properties.center));
         Self {
             balls: colliders.iter().map(Collider::bounds).collect(),
             bounding_radii: colliders.iter().map(radius).collect(),
-            corners: Corners::new(colliders),
+            corners: ManifoldBuilder::new(colliders),
             colliders: colliders.to_vec(),
             pairs,
         }
@@ -50,7 +50,7 @@ impl Surfaces {
 
     /// The contact manifold of a pair at the bodies' present poses.
     pub fn manifold(&mut self, pair: usize, bodies: &[RigidBody]) -> Manifold {
-        let Pair { a, b } = self.pairs[pair].pair;
+        let ColliderPair { a, b } = self.pairs[pair].pair;
         let (pose_a, pose_b) = (self.pose(a, bodies), self.pose(b, bodies));
         self.corners.manifold(&self.colliders[a], &pose_a, &self.colliders[b], &pose_b)
     }
@@ -62,7 +62,7 @@ impl Surfaces {
 
     /// The two bodies of a pair; `None` is the world.
     pub fn bodies_of(&self, pair: usize) -> [Option<usize>; 2] {
-        let Pair { a, b } = self.pairs[pair].pair;
+        let ColliderPair { a, b } = self.pairs[pair].pair;
         [self.colliders[a].body, self.colliders[b].body]
     }
 
@@ -83,16 +83,19 @@ impl Surfaces {
 
     /// Whether the bounding balls of a pair overlap at the bodies' present poses.
     pub fn may_touch(&self, pair: usize, bodies: &[RigidBody]) -> bool {
-        let Pair { a, b } = self.pairs[pair].pair;
+        let ColliderPair { a, b } = self.pairs[pair].pair;
         let place = |c: usize| self.pose(c, bodies).point(self.balls[c].0);
-        let far =
-            self.balls[a].1 + self.balls[b].1 + self.colliders[a].shape.radius + self.colliders[b].shape.radius + TOUCH;
+        let far = self.balls[a].1
+            + self.balls[b].1
+            + self.colliders[a].shape.radius
+            + self.colliders[b].shape.radius
+            + CONTACT_MARGIN;
         place(a).distance_squared(place(b)) <= far * far
     }
 
     /// The fraction of a substep after which a pair that opens at its beginning has closed again, if it overlaps at the end.
     pub fn return_time(&self, pair: usize, SweptPair { sweeps, .. }: &SweptPair) -> Option<f64> {
-        let Pair { a, b } = self.pairs[pair].pair;
+        let ColliderPair { a, b } = self.pairs[pair].pair;
         let (collider_a, collider_b) = (&self.colliders[a], &self.colliders[b]);
         let ([sweep_a, sweep_b], corners) = (sweeps, &self.corners);
         let gap = |s: f64| corners.proximity(collider_a, &sweep_a.pose(s), collider_b, &sweep_b.pose(s)).gap;

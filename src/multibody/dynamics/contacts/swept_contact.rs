@@ -9,7 +9,7 @@ use super::impact::SurfacePair;
 use super::jacobian_row::{JacobianRow, MAX_ROW_BODIES, point_rows, rolling_resistance_rows};
 use super::nearby_pairs::SweptPair;
 use super::state::Contacts;
-use crate::collision::{Collider, Pair, Shape, TOUCH};
+use crate::collision::{CONTACT_MARGIN, Collider, ColliderPair, Shape};
 use crate::dynamics::limits::BoundRow;
 use soffio_geometry::bodies::RigidBody;
 use soffio_geometry::support::Core;
@@ -78,7 +78,7 @@ impl Contacts {
         }
         for bound in 0..self.limits.count() {
             let gap = self.limits.gap(bound, after);
-            if gap > TOUCH || out.len() == out.capacity() {
+            if gap > CONTACT_MARGIN || out.len() == out.capacity() {
                 continue;
             }
             let BoundRow { row, point, .. } = self.limits.row(bound, after);
@@ -100,13 +100,13 @@ impl Contacts {
     }
 
     fn find_swept_pair(&mut self, pair: usize, after: &[RigidBody], out: &mut Vec<SweptContact>) {
-        let Pair { a, b } = self.surfaces.pairs[pair].pair;
+        let ColliderPair { a, b } = self.surfaces.pairs[pair].pair;
         let SweptPair { sweeps: [sweep_a, sweep_b], impact } = self.nearby.sweep_pair(&mut self.surfaces, pair);
         let Some(impact) = impact else { return };
         let (s, normal) = (impact.s, impact.proximity.normal);
         let mut add = |point: DVec3, normal: DVec3, gap: f64| {
             let bodies = [self.surfaces.colliders[a].body, self.surfaces.colliders[b].body];
-            if gap > TOUCH || out.len() == out.capacity() {
+            if gap > CONTACT_MARGIN || out.len() == out.capacity() {
                 return;
             }
             let surface = &self.surfaces.pairs[pair];

@@ -27,7 +27,7 @@ use super::resting_contact::LAYER;
 use super::state::Contacts;
 use super::surfaces::PointGeometry;
 use crate::articulation::System;
-use crate::collision::{Pair, TOUCH, TimeOfImpact};
+use crate::collision::{CONTACT_MARGIN, ColliderPair, TimeOfImpact};
 use crate::dynamics::step::SubstepSpan;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, Pose};
@@ -165,12 +165,12 @@ impl Contacts {
     /// Adds the contact points of a pair with an impact. These are the closed points at the end, if the surfaces overlap on the
     /// side of their first contact; else the point of first contact, with the distance that the bodies have passed each other.
     fn push_impact_points(&mut self, pair: usize, toi: &TimeOfImpact, after: &[RigidBody]) {
-        let Pair { a, b } = self.surfaces.pairs[pair].pair;
+        let ColliderPair { a, b } = self.surfaces.pairs[pair].pair;
         let normal = toi.proximity.normal;
         let manifold = self.surfaces.manifold(pair, after);
         if manifold.normal.dot(normal) > SAME_SIDE {
             let nearest = manifold.points().iter().fold(f64::INFINITY, |least, at| least.min(at.gap));
-            for at in manifold.points().iter().filter(|at| at.gap <= TOUCH.max(nearest)) {
+            for at in manifold.points().iter().filter(|at| at.gap <= CONTACT_MARGIN.max(nearest)) {
                 let at = PointGeometry { point: at.point, normal: manifold.normal, gap: at.gap };
                 self.surfaces.push_point(&mut self.problem, pair, at, after);
             }

@@ -3,7 +3,7 @@
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sqrt};
 use soffio_multibody::articulation::{Anchor, Constraint, ConstraintKind, PivotFriction};
-use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
+use soffio_multibody::collision::{Collider, ReachableVolumes, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
     Articulation, Dynamics, Impact, ImpactKind, Integrator, RollingResistance, Settings, Solver, SurfacePair,
@@ -176,7 +176,7 @@ fn disc_collider(body: usize, radius: f64, thickness: f64) -> Collider {
 }
 
 fn surfaces(colliders: &[Collider], restitution: f64, friction: f64) -> Vec<SurfacePair> {
-    pairs(colliders, &[], &Reach::default())
+    pairs(colliders, &[], &ReachableVolumes::default())
         .meet
         .into_iter()
         .map(|pair| SurfacePair { pair, restitution, friction, resistance: RollingResistance::default() })

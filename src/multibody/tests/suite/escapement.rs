@@ -25,7 +25,7 @@
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind};
-use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
+use soffio_multibody::collision::{Collider, ReachableVolumes, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
     Articulation, Dynamics, Impact, Integrator, RollingResistance, Settings, Solver, SurfacePair,
@@ -111,7 +111,7 @@ fn clock(swing: f64) -> Dynamics {
         })
         .collect();
     colliders.extend([pallet(-1.0), pallet(1.0)]);
-    let pairs = pairs(&colliders, &[], &Reach::default()).meet.into_iter().map(|pair| SurfacePair {
+    let pairs = pairs(&colliders, &[], &ReachableVolumes::default()).meet.into_iter().map(|pair| SurfacePair {
         pair,
         restitution: 0.2,
         friction: 0.1,

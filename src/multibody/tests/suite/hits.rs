@@ -56,7 +56,7 @@ fn random_articulation(random: &mut Random) -> (System, Vec<RigidBody>, bool) {
     let is_kinematic = vec![false; count];
     let mut system = System::new(&bodies, &is_kinematic, &constraints, Solver::Sparse);
     system.evaluate(&bodies);
-    system.look_for_gaps();
+    system.classify_rows();
     system.factor();
     for _ in 0..2 {
         system.solve_velocity(&bodies);

@@ -9,10 +9,10 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::collision::{Collider, Shape};
 use soffio_multibody::dynamics::{Dynamics, Impact, RollingResistance};
-use soffio_multibody::procedural::{Method, Procedural, Settings};
+use soffio_multibody::procedural::{PositionSolver, Procedural, Settings};
 
 use crate::motion::{DT, G, World, body};
-use crate::procedural::{Extras, laws};
+use crate::procedural::{Extras, dynamics_of};
 
 const R: f64 = 0.02;
 const MASS: f64 = 0.1;
@@ -28,14 +28,14 @@ const ROUNDING: f64 = 1e-9;
 /// What moves the balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mover {
-    Laws,
+    Dynamics,
     /// By places with Coulomb's law, and with the source's.
-    Places,
+    PositionBased,
     Source,
 }
 
-const ALL: [Mover; 3] = [Mover::Laws, Mover::Places, Mover::Source];
-const COULOMB: [Mover; 2] = [Mover::Laws, Mover::Places];
+const ALL: [Mover; 3] = [Mover::Dynamics, Mover::PositionBased, Mover::Source];
+const COULOMB: [Mover; 2] = [Mover::Dynamics, Mover::PositionBased];
 
 /// Balls on what they roll on.
 struct Table {
@@ -68,8 +68,8 @@ impl Table {
         world.gravity = gravity;
         let sphere = |body| Collider { body: Some(body), shape: Shape::sphere(DVec3::ZERO, R), ..floor() };
         extras.colliders = (0..world.bodies.len()).map(sphere).chain(around).collect();
-        let dynamics = laws(&world, &extras);
-        let method = if mover == Mover::Source { Method::Compulsive } else { Method::TreeSolve };
+        let dynamics = dynamics_of(&world, &extras);
+        let method = if mover == Mover::Source { PositionSolver::Relaxation } else { PositionSolver::TreeSolve };
         Self {
             mover,
             procedural: Procedural::new(&dynamics, Settings { method, ..Settings::default() }),
@@ -95,7 +95,7 @@ impl Table {
     fn step(&mut self) {
         let Self { dynamics, impacts, still, .. } = self;
         let bad = match self.mover {
-            Mover::Laws => dynamics.step(DT, still, impacts),
+            Mover::Dynamics => dynamics.step(DT, still, impacts),
             _ => self.procedural.step(dynamics, DT, still, &[], impacts),
         };
         assert_eq!(bad, None, "bad numbers");
@@ -156,14 +156,14 @@ fn a_ball_slides_then_rolls_as_coulombs_law_says() {
                 println!("{mover:?}, {name}, k {k:.2}: off by {v:.1e}, {w:.1e} m/s, {x:.1e} m");
                 // By places v goes before x: off by ½ Δt Δv.
                 let late = 0.5 * DT * (slip(v0, w0) * (k / (1.0 + k))).length();
-                let (speed, way) = if mover == Mover::Laws { (LAYER * 3.0, WAY) } else { (ROUNDING, 1.01 * late) };
+                let (speed, way) = if mover == Mover::Dynamics { (LAYER * 3.0, WAY) } else { (ROUNDING, 1.01 * late) };
                 assert!(worst[0] < speed && worst[1] < speed && worst[2] < way, "{mover:?}, {name}: {worst:?}");
                 // What friction took is k/(1 + k) of the slip's energy.
                 let lost = energy - table.dynamics.energy();
                 let u = slip(v0, w0).length();
                 let expected = 0.5 * MASS * u * u * k / (1.0 + k);
                 let ledger = lost + table.dynamics.contact_work() - work;
-                if mover == Mover::Laws {
+                if mover == Mover::Dynamics {
                     println!("    ledger {ledger:.1e} J of {lost:.4} J");
                     assert!(ledger.abs() < 1e-6 * expected, "{name}: {ledger} J of {lost} J");
                 }
@@ -257,12 +257,12 @@ fn a_rolling_ball_slows_down_stops_and_stays() {
             let way = 0.5 * v0 * v0 / rate;
             println!("{mover:?}, k {k:.2}: off by {worst:.1e} m/s, way {} for {way}", ball.position.x);
             // At the end of the step in which it stops all is known again.
-            let speed = if mover == Mover::Laws { 2.0 * LAYER * v0 } else { ROUNDING };
+            let speed = if mover == Mover::Dynamics { 2.0 * LAYER * v0 } else { ROUNDING };
             assert!(worst < speed, "{mover:?}: {worst} m/s");
             // By places v goes before x: half a step's way.
-            let half_step = if mover == Mover::Laws { 0.0 } else { v0 * DT };
+            let half_step = if mover == Mover::Dynamics { 0.0 } else { v0 * DT };
             assert!((ball.position.x - way).abs() < half_step + 3.0 * LAYER * way, "{mover:?}: {}", ball.position.x);
-            if mover == Mover::Laws {
+            if mover == Mover::Dynamics {
                 let ledger = energy - table.dynamics.energy() + table.dynamics.contact_work() - work;
                 assert!(ledger.abs() < 1e-5 * energy, "{ledger} J of {energy} J");
             }
@@ -313,7 +313,7 @@ fn on_an_incline_resistance_holds_a_ball_or_slows_it() {
             if expected == 0.0 {
                 assert!(after.velocity.length() < 1e-9, "{mover:?}: {}", after.velocity);
                 // By places what lies still gives way by a step's fall each step.
-                let creeps = if mover == Mover::Laws { 1e-8 } else { 240.0 * G * sin * DT * DT };
+                let creeps = if mover == Mover::Dynamics { 1e-8 } else { 240.0 * G * sin * DT * DT };
                 assert!(after.position.distance(before.position) <= creeps, "{mover:?}: creeps");
             } else {
                 // By the source's law friction needs slip, and resistance is less by its ratio.
@@ -360,7 +360,7 @@ fn equal_balls_part_at_a_right_angle() {
         println!("{mover:?}: cosine {cosine:.1e}; object leaves at {}°", object.z.atan2(object.x).to_degrees());
         assert!(cosine.abs() < 1e-12, "{mover:?}: {cosine}");
         assert!((cue + object - DVec3::X).length() < 1e-14, "{mover:?}: momentum");
-        if mover == Mover::Laws {
+        if mover == Mover::Dynamics {
             // Half a ball aside: the object leaves at 30°, the cue at 60°.
             let wanted = DVec3::new(0.75, 0.0, 0.75f64.sqrt() * 0.5);
             assert!(object.distance(wanted) < LINE, "{object} for {wanted}");
@@ -389,7 +389,7 @@ fn rubbing_balls_throw_each_other_and_keep_what_they_must() {
         let (q, m) = momenta(&table.dynamics.bodies);
         assert!((p - q).length() < 1e-14, "{mover:?}: {p} {q}");
         // By places the hit is answered at the step's end.
-        let turn = if mover == Mover::Laws { 1e-9 } else { 1e-5 };
+        let turn = if mover == Mover::Dynamics { 1e-9 } else { 1e-5 };
         assert!((l - m).length() < turn, "{mover:?}: {l} {m}");
         let object = table.dynamics.bodies[1].velocity;
         // It slides throughout: Coulomb's throw of tan⁻¹ μ.
@@ -423,7 +423,7 @@ fn a_cushion_answers_with_coulombs_impulse() {
             let off = after.velocity.distance(v).max(R * after.angular_velocity.distance(w));
             println!("{mover:?}, {name}: off by {off:.1e} m/s");
             // The laws' contact point lies in the middle of the touching layer.
-            assert!(off < if mover == Mover::Laws { 3.0 * LAYER } else { ROUNDING }, "{mover:?}, {name}: {off}");
+            assert!(off < if mover == Mover::Dynamics { 3.0 * LAYER } else { ROUNDING }, "{mover:?}, {name}: {off}");
         }
     }
 }
@@ -453,7 +453,7 @@ fn a_table_full_of_balls_gains_nothing_ends_still_and_allocates_nothing() {
             assert_no_alloc(|| table.step());
             let now = table.dynamics.energy();
             // By places what falls and is moved out again gives and takes a step's fall.
-            let slack = if mover == Mover::Laws { 1e-9 } else { 9.0 * MASS * G * 2.0 * G * DT * DT };
+            let slack = if mover == Mover::Dynamics { 1e-9 } else { 9.0 * MASS * G * 2.0 * G * DT * DT };
             assert!(now <= energy + slack, "{mover:?}, step {step}: {now} after {energy} J");
             energy = energy.min(now);
             table.impacts.clear();

@@ -168,7 +168,7 @@ impl Tree {
         let (body, frame) = measure.bodies();
         let (direction, turns) = match measure {
             Measure::Angle { axis, .. } => (direction(exhibit, axis), true),
-            Measure::Way { direction: slide, .. } => (direction(exhibit, slide), false),
+            Measure::Displacement { direction: slide, .. } => (direction(exhibit, slide), false),
         };
         let mut out = Vec::new();
         let mut at = body;

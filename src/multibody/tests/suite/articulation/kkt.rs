@@ -42,7 +42,7 @@ fn solve(matrix: &[Vec<f64>], rhs: &[f64]) -> Vec<f64> {
 }
 
 /// What the reference finds: accelerations, and multipliers of the rows asked for.
-pub struct Answer {
+pub struct Solution {
     pub a: Vec<Vec6>,
     pub lambda: Vec<f64>,
 }
@@ -53,7 +53,7 @@ pub fn reference(
     bodies: &[RigidBody],
     rows: &[usize],
     (b, g, given): (&[Vec6], &[f64], &[Vec6]),
-) -> Answer {
+) -> Solution {
     let n = 6 * bodies.len() + rows.len();
     let mut m = vec![vec![0.0; n]; n];
     let mut rhs = vec![0.0; n];
@@ -61,7 +61,7 @@ pub fn reference(
         let inertia = body.inertia_world();
         for k in 0..6 {
             let at = 6 * i + k;
-            if system.driven()[i] {
+            if system.kinematic()[i] {
                 (m[at][at], rhs[at]) = (1.0, given[i][k]);
             } else if k < 3 {
                 (m[at][at], rhs[at]) = (body.properties.mass, b[i][k]);
@@ -76,7 +76,7 @@ pub fn reference(
         for (body, block) in system.jacobian(row) {
             for c in 0..6 {
                 m[at][6 * body + c] += block[c];
-                if !system.driven()[body] {
+                if !system.kinematic()[body] {
                     m[6 * body + c][at] -= block[c];
                 }
             }
@@ -88,7 +88,7 @@ pub fn reference(
     }
     let x = solve(&m, &rhs);
     let (a, lambda) = x.split_at(6 * bodies.len());
-    Answer { a: a.chunks_exact(6).map(|c| [c[0], c[1], c[2], c[3], c[4], c[5]]).collect(), lambda: lambda.to_vec() }
+    Solution { a: a.chunks_exact(6).map(|c| [c[0], c[1], c[2], c[3], c[4], c[5]]).collect(), lambda: lambda.to_vec() }
 }
 
 /// The rows among these that do not repeat earlier ones, and the smallest share of itself that any of them adds: by
@@ -134,7 +134,7 @@ fn spread(
 
 /// The rows among these that do not repeat earlier ones, and the smallest share of itself that any of them adds.
 pub fn independent(system: &System, bodies: &[RigidBody], rows: &[usize], least: f64) -> (Vec<usize>, f64) {
-    spread(system, bodies, rows, least, |body| !system.driven()[body])
+    spread(system, bodies, rows, least, |body| !system.kinematic()[body])
 }
 
 /// Do these rows stand by themselves, and those of every joint on either of its bodies alone? Two points between one
@@ -142,7 +142,7 @@ pub fn independent(system: &System, bodies: &[RigidBody], rows: &[usize], least:
 /// For the same reason, do the rows of whatever hangs on one body alone, with that body held?
 pub fn well_posed(system: &System, bodies: &[RigidBody], rows: &[usize], least: f64) -> bool {
     let alone = |body: usize, own: &[usize]| {
-        system.driven()[body] || spread(system, bodies, own, least, |b| b == body).0.len() == own.len()
+        system.kinematic()[body] || spread(system, bodies, own, least, |b| b == body).0.len() == own.len()
     };
     system.joints().iter().all(|joint| {
         let own: Vec<usize> = (joint.at..joint.at + joint.hard).filter(|row| rows.contains(row)).collect();
@@ -166,19 +166,19 @@ fn hanging(system: &System, count: usize, top: usize) -> Vec<bool> {
             }
             (_, link) => link.map_or(Vec::new(), |(a, b)| vec![a, b]),
         };
-        let vertex = |end: &Option<usize>| end.filter(|&body| !system.driven()[body]).unwrap_or(count);
+        let vertex = |end: &Option<usize>| end.filter(|&body| !system.kinematic()[body]).unwrap_or(count);
         ends.iter().map(vertex).filter(|&vertex| vertex != top).collect::<Vec<_>>()
     };
     // Whatever is met from the ground, as long as there is more of it.
-    let mut met = vec![false; count + 1];
-    met[count] = true;
+    let mut reached = vec![false; count + 1];
+    reached[count] = true;
     for _ in 0..count {
         for constraint in system.constraints() {
             let touched = touched(constraint);
-            if touched.iter().any(|&vertex| met[vertex]) {
-                touched.iter().for_each(|&vertex| met[vertex] = true);
+            if touched.iter().any(|&vertex| reached[vertex]) {
+                touched.iter().for_each(|&vertex| reached[vertex] = true);
             }
         }
     }
-    (0..count).map(|body| !met[body] && body != top).collect()
+    (0..count).map(|body| !reached[body] && body != top).collect()
 }

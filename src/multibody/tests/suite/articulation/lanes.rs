@@ -6,13 +6,13 @@ use soffio_math::lanes::{All, Lanes, One, Quat};
 use soffio_math::noise::Random;
 use soffio_math::spatial::Vec6;
 use soffio_math::{DQuat, DVec3, product, renormalized, rotation};
-use soffio_multibody::articulation::quads::gather;
-use soffio_multibody::articulation::{Breaking, Constraint, Method, System};
+use soffio_multibody::articulation::lane_blocks::gather;
+use soffio_multibody::articulation::{Breaking, Constraint, LinearSolver, System};
 
-use super::figures::{Kinds, below, body, figure, point, vector, wrench};
+use super::mechanisms::{Kinds, below, body, mechanism, point, vector, wrench};
 
 /// How many random figures of each kind.
-const FIGURES: u64 = 200;
+const MECHANISMS: u64 = 200;
 /// Of the largest unknown: two eliminations of figures whose condition numbers stay below some 10⁴.
 const SOLVED: f64 = 1e-10;
 
@@ -44,10 +44,10 @@ fn bush(random: &mut Random) -> (Vec<RigidBody>, Vec<Constraint>) {
 
 /// Accelerations and multipliers under random forces and wanted rows, and the rates that a velocity solve undoes; the
 /// figure may be one that is still being drawn together.
-fn solved(system: &mut System, bodies: &[RigidBody], gathers: bool, random: &mut Random) -> (Vec<Vec6>, Vec<f64>) {
+fn solved(system: &mut System, bodies: &[RigidBody], stabilised: bool, random: &mut Random) -> (Vec<Vec6>, Vec<f64>) {
     system.evaluate(bodies);
-    if gathers {
-        system.look_for_gaps();
+    if stabilised {
+        system.classify_rows();
     }
     system.factor();
     for i in 0..bodies.len() {
@@ -58,14 +58,14 @@ fn solved(system: &mut System, bodies: &[RigidBody], gathers: bool, random: &mut
     system.solve();
     let (mut a, mut lambda) = (system.a.clone(), system.lambda.clone());
     system.solve_velocity(bodies);
-    system.tell_multipliers();
+    system.copy_ball_joint_multipliers();
     a.extend(&system.a);
     lambda.extend(&system.lambda);
     for wrench in &mut system.b {
         *wrench = [0.0, -1.0, 0.0, 0.1, 0.0, 0.0];
     }
     system.solve_acceleration(bodies, 10.0);
-    system.tell_multipliers();
+    system.copy_ball_joint_multipliers();
     a.extend(&system.a);
     lambda.extend(&system.lambda);
     (a, lambda)
@@ -77,18 +77,18 @@ fn bits((a, lambda): &(Vec<Vec6>, Vec<f64>)) -> Vec<u64> {
 
 #[test]
 fn every_processor_finds_the_same_bits() {
-    for seed in 0..FIGURES {
+    for seed in 0..MECHANISMS {
         let mut random = Random::new(seed);
-        let (bodies, driven, constraints) = if seed % 2 == 0 {
+        let (bodies, kinematic, constraints) = if seed % 2 == 0 {
             let (bodies, constraints) = bush(&mut random);
             (bodies.clone(), bodies.iter().map(|_| random.unit() < 0.05).collect(), constraints)
         } else {
-            let kinds = Kinds { loops: seed % 3 > 0, shares: false, friction: false };
-            let figure = figure(&mut random, kinds);
-            (figure.bodies, figure.driven, figure.constraints)
+            let kinds = Kinds { loops: seed % 3 > 0, partial_rows: false, friction: false };
+            let mechanism = mechanism(&mut random, kinds);
+            (mechanism.bodies, mechanism.kinematic, mechanism.constraints)
         };
         let found = levels().into_iter().map(|level| {
-            let mut system = System::at_level(level, &bodies, &driven, &constraints, Method::Sparse);
+            let mut system = System::at_level(level, &bodies, &kinematic, &constraints, LinearSolver::Sparse);
             bits(&solved(&mut system, &bodies, seed % 4 < 2, &mut Random::new(seed)))
         });
         let found: Vec<Vec<u64>> = found.collect();
@@ -98,9 +98,9 @@ fn every_processor_finds_the_same_bits() {
 
 #[test]
 fn four_bodies_at_a_time_come_out_as_one_by_one() {
-    for seed in 0..FIGURES {
+    for seed in 0..MECHANISMS {
         let (bodies, constraints) = bush(&mut Random::new(seed));
-        let driven = vec![false; bodies.len()];
+        let kinematic = vec![false; bodies.len()];
         // What could break is no point for ever, and so goes by itself.
         let mut alone = constraints.clone();
         for constraint in &mut alone {
@@ -108,7 +108,7 @@ fn four_bodies_at_a_time_come_out_as_one_by_one() {
             constraint.breaking = Some(Breaking { force: never, torque: never, impulse: never, restore: never });
         }
         let [together, alone] = [&constraints, &alone].map(|constraints| {
-            let mut system = System::new(&bodies, &driven, constraints, Method::Sparse);
+            let mut system = System::new(&bodies, &kinematic, constraints, LinearSolver::Sparse);
             solved(&mut system, &bodies, seed % 2 == 0, &mut Random::new(seed))
         });
         assert!(bits(&together) == bits(&alone), "seed {seed}");
@@ -118,11 +118,11 @@ fn four_bodies_at_a_time_come_out_as_one_by_one() {
 #[test]
 fn four_bodies_at_a_time_obey_the_dense_equations() {
     let mut worst = 0.0_f64;
-    for seed in 0..FIGURES {
+    for seed in 0..MECHANISMS {
         let (bodies, constraints) = bush(&mut Random::new(seed));
-        let driven = vec![false; bodies.len()];
-        let [tree, dense] = [Method::Sparse, Method::Dense].map(|method| {
-            let mut system = System::new(&bodies, &driven, &constraints, method);
+        let kinematic = vec![false; bodies.len()];
+        let [tree, dense] = [LinearSolver::Sparse, LinearSolver::Dense].map(|method| {
+            let mut system = System::new(&bodies, &kinematic, &constraints, method);
             // While it gathers the dense rows yield a little, and those of the tree do not.
             solved(&mut system, &bodies, false, &mut Random::new(seed))
         });
@@ -147,21 +147,21 @@ fn turns_of_lanes_are_the_turns_of_bodies() {
         let size = [1e-3, 0.03, 0.3, 3.0][case % 4];
         // Every now and then one of the four turns by much more than the others.
         let sizes = [size, size, size, if case % 5 == 0 { 1.0 } else { size }];
-        let turns = sizes.map(|size| size * vector(&mut random));
+        let rotations = sizes.map(|size| size * vector(&mut random));
         let from = [0; 4].map(|_| rotation(vector(&mut random)));
-        let found = dispatch!(Level::new(), simd => turned(All(simd), &turns, &from));
+        let found = dispatch!(Level::new(), simd => turned(All(simd), &rotations, &from));
         for (k, found) in found.into_iter().enumerate() {
-            let expected = renormalized(product(rotation(turns[k]), from[k])).to_array();
-            assert_eq!(found, expected, "turn {}", turns[k]);
-            assert_eq!(turned(One(k), &turns, &from)[k], expected, "turn {} alone", turns[k]);
+            let expected = renormalized(product(rotation(rotations[k]), from[k])).to_array();
+            assert_eq!(found, expected, "turn {}", rotations[k]);
+            assert_eq!(turned(One(k), &rotations, &from)[k], expected, "turn {} alone", rotations[k]);
         }
     }
 }
 
 #[inline(always)]
-fn turned<L: Lanes>(lanes: L, turns: &[DVec3; 4], from: &[DQuat; 4]) -> [[f64; 4]; 4] {
+fn turned<L: Lanes>(lanes: L, rotations: &[DVec3; 4], from: &[DQuat; 4]) -> [[f64; 4]; 4] {
     let start = Quat::gather(lanes, |k| from[k]);
-    let q = Quat::of_turn(lanes, gather(lanes, |k| &turns[k])).times(start).renormalized();
+    let q = Quat::of_turn(lanes, gather(lanes, |k| &rotations[k])).times(start).renormalized();
     let mut out = [[0.0; 4]; 4];
     lanes.scatter(4, &[q.v.x, q.v.y, q.v.z, q.w], |lane, q| out[lane] = *q);
     out

@@ -12,11 +12,11 @@ use soffio_math::spatial::matrix;
 use soffio_math::spatial::{Vec6, angular, dot, linear, vec6};
 use soffio_math::{DMat3, Pose, rotation};
 use soffio_multibody::articulation::rows::coupling::{self, Gauge};
-use soffio_multibody::articulation::rows::{Row, Scene, orientation, plane, point};
-use soffio_multibody::articulation::{Constraint, ConstraintKind, Measure, Method, System};
+use soffio_multibody::articulation::rows::{BodyStates, JacobianRow, orientation, plane, point};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, LinearSolver, Measure, System};
 use soffio_multibody::dynamics::KeyframeMotion;
 
-use super::figures::{self, axis, below, body, unit, vector};
+use super::mechanisms::{self, axis, below, body, unit, vector};
 
 /// Step of the stencils, s or of the displacements.
 const STEP: f64 = 2e-3;
@@ -35,22 +35,27 @@ fn differences(value: impl Fn(f64) -> f64) -> (f64, f64) {
 }
 
 /// The bodies at the time t of the motion of the file's head.
-fn moved(bodies: &[RigidBody], accelerations: &[Vec6], t: f64) -> Vec<RigidBody> {
+fn shifted(bodies: &[RigidBody], accelerations: &[Vec6], t: f64) -> Vec<RigidBody> {
     let mut out = bodies.to_vec();
     for (body, a) in out.iter_mut().zip(accelerations) {
         let half = 0.5 * t * t;
-        let (way, turn) = (soffio_math::spatial::linear(a), soffio_math::spatial::angular(a));
+        let (way, rotated) = (soffio_math::spatial::linear(a), soffio_math::spatial::angular(a));
         body.position += t * body.velocity + half * way;
-        body.rotation = rotation(t * body.angular_velocity + half * turn) * body.rotation;
+        body.rotation = rotation(t * body.angular_velocity + half * rotated) * body.rotation;
     }
     out
 }
 
 /// Rows of a kind between bodies 0, 1 (or the world) and 2, with blocks for all three bodies.
-fn evaluate(kind: &ConstraintKind, gauges: &[(Gauge, f64)], bodies: &[RigidBody], t: f64) -> Vec<(Row, [Vec6; 3])> {
+fn evaluate(
+    kind: &ConstraintKind,
+    gauges: &[(Gauge, f64)],
+    bodies: &[RigidBody],
+    t: f64,
+) -> Vec<(JacobianRow, [Vec6; 3])> {
     let frames: Vec<DMat3> = bodies.iter().map(|body| matrix(body.rotation)).collect();
-    let scene = Scene { bodies, frames: &frames, time: t };
-    let both = |row: Row| {
+    let scene = BodyStates { bodies, frames: &frames, time: t };
+    let both = |row: JacobianRow| {
         let mut blocks = [[0.0; 6]; 3];
         let (a, b) = Constraint::new("", kind.clone()).link().expect("two bodies");
         a.into_iter().for_each(|a| blocks[a] = row.a);
@@ -80,25 +85,25 @@ fn check(name: &str, make: impl Fn(&mut Random) -> ConstraintKind) {
         let gauges: Vec<(Gauge, f64)> = match &kind {
             ConstraintKind::Coupling { terms } => {
                 // Zero where the bodies stood some time ago.
-                let before = moved(&bodies, &[[0.0; 6]; 3], -0.7);
+                let before = shifted(&bodies, &[[0.0; 6]; 3], -0.7);
                 terms.iter().map(|term| (Gauge::new(term.measure, &before), term.coefficient)).collect()
             }
             _ => Vec::new(),
         };
         let t = random.range(0.0, 3.0);
-        let accelerations: Vec<Vec6> = (0..3).map(|_| figures::wrench(&mut random)).collect();
+        let accelerations: Vec<Vec6> = (0..3).map(|_| mechanisms::wrench(&mut random)).collect();
         let now = evaluate(&kind, &gauges, &bodies, t);
         for (k, (row, blocks)) in now.iter().enumerate() {
             let times = |v: &[Vec6]| (0..3).map(|i| dot(&blocks[i], &v[i])).sum::<f64>();
             // J alone: the bodies move, time and functions stand still.
             let still: Vec<RigidBody> = bodies.clone();
-            let (way, _) = differences(|s| evaluate(&kind, &gauges, &moved(&still, &[[0.0; 6]; 3], s), t)[k].0.value);
+            let (way, _) = differences(|s| evaluate(&kind, &gauges, &shifted(&still, &[[0.0; 6]; 3], s), t)[k].0.value);
             let velocities: Vec<Vec6> = bodies.iter().map(|b| vec6(b.velocity, b.angular_velocity)).collect();
-            let along = |s: f64| evaluate(&kind, &gauges, &moved(&bodies, &accelerations, s), t + s)[k].0.value;
+            let along = |s: f64| evaluate(&kind, &gauges, &shifted(&bodies, &accelerations, s), t + s)[k].0.value;
             let (rate, bend) = differences(along);
             let errors = [
                 (way - times(&velocities)).abs(),
-                (rate - (times(&velocities) - row.feed)).abs(),
+                (rate - (times(&velocities) - row.prescribed_rate)).abs(),
                 (bend - (times(&accelerations) + row.bias)).abs(),
             ];
             for (worst, error) in worst.iter_mut().zip(errors) {
@@ -120,18 +125,18 @@ fn other(random: &mut Random) -> Option<usize> {
 fn points_planes_and_orientations_have_the_derivatives_they_say() {
     check("point", |random| {
         let b = other(random);
-        figures::point(random, Some(0), b)
+        mechanisms::point(random, Some(0), b)
     });
     check("plane", |random| {
         let b = other(random);
-        if random.unit() < 0.5 { figures::plane(random, Some(0), b) } else { figures::plane(random, b, Some(0)) }
+        if random.unit() < 0.5 { mechanisms::plane(random, Some(0), b) } else { mechanisms::plane(random, b, Some(0)) }
     });
     check("orientation", |random| {
         let b = other(random);
         if random.unit() < 0.5 {
-            figures::orientation(random, Some(0), b)
+            mechanisms::orientation(random, Some(0), b)
         } else {
-            figures::orientation(random, b, Some(0))
+            mechanisms::orientation(random, b, Some(0))
         }
     });
 }
@@ -149,9 +154,9 @@ fn turns_and_ways_have_the_derivatives_they_say_on_moving_frames_too() {
     check("turn of the world", |random| one(Measure::Angle { axis: axis(random, None), frame: Some(0) }));
     check("way", |random| {
         let frame = other(random);
-        one(Measure::Way { point: figures::anchor(random, Some(0)), direction: axis(random, frame) })
+        one(Measure::Displacement { point: mechanisms::anchor(random, Some(0)), direction: axis(random, frame) })
     });
-    check("coupling", |random| figures::coupling(random, 3));
+    check("coupling", |random| mechanisms::coupling(random, 3));
 }
 
 #[test]
@@ -197,13 +202,13 @@ fn driven_bodies_have_the_velocities_and_accelerations_they_say() {
             };
             let mut now = template;
             let rate = motion.at(t).place(&mut now);
-            let (acceleration, turn) = (linear(&rate), angular(&rate));
+            let (acceleration, rotated) = (linear(&rate), angular(&rate));
             // Three points of the body say all of its motion.
             for arm in [vector(&mut random), vector(&mut random), vector(&mut random)] {
                 let r = now.arm(arm);
                 let velocity = now.velocity_at(now.position + r);
                 let centripetal = now.angular_velocity.cross(now.angular_velocity.cross(r));
-                let bend = acceleration + turn.cross(r) + centripetal;
+                let bend = acceleration + rotated.cross(r) + centripetal;
                 for k in 0..3 {
                     let (first, second) = differences(|s| (at(s).position + at(s).arm(arm))[k]);
                     let off = [(first - velocity[k]).abs(), (second - bend[k]).abs()];
@@ -222,34 +227,34 @@ fn solved_accelerations_keep_every_row_as_it_moves() {
     let (mut seed, mut done) = (0, 0);
     while done < 60 {
         let mut random = Random::new(seed);
-        let kinds = figures::Kinds { loops: true, shares: false, friction: false };
-        let figure = figures::figure(&mut random, kinds);
-        let method = if seed % 2 == 0 { Method::Sparse } else { Method::Dense };
+        let kinds = mechanisms::Kinds { loops: true, partial_rows: false, friction: false };
+        let mechanism = mechanisms::mechanism(&mut random, kinds);
+        let method = if seed % 2 == 0 { LinearSolver::Sparse } else { LinearSolver::Dense };
         seed += 1;
-        let t = figure.time;
-        let mut system = System::new(&figure.bodies, &figure.driven, &figure.constraints, method);
-        system.activity.set_shares(t);
+        let t = mechanism.time;
+        let mut system = System::new(&mechanism.bodies, &mechanism.kinematic, &mechanism.constraints, method);
+        system.activity.update_activations(t);
         system.activity.set_time(t);
-        system.evaluate(&figure.bodies);
+        system.evaluate(&mechanism.bodies);
         let rows = system.acting_rows();
-        if !super::kkt::well_posed(&system, &figure.bodies, &rows, 0.1) {
+        if !super::kkt::well_posed(&system, &mechanism.bodies, &rows, 0.1) {
             continue;
         }
         done += 1;
         system.factor();
-        let given: Vec<Vec6> = figure.bodies.iter().map(|_| figures::wrench(&mut random)).collect();
+        let given: Vec<Vec6> = mechanism.bodies.iter().map(|_| mechanisms::wrench(&mut random)).collect();
         for i in 0..given.len() {
-            system.b[i] = figures::wrench(&mut random);
-            if figure.driven[i] {
+            system.b[i] = mechanisms::wrench(&mut random);
+            if mechanism.kinematic[i] {
                 system.a[i] = given[i];
             }
         }
-        system.solve_acceleration(&figure.bodies, 1.0);
+        system.solve_acceleration(&mechanism.bodies, 1.0);
         let accelerations = system.a.clone();
         let value = |row: usize, s: f64| {
             let mut other = system.clone();
             other.activity.set_time(t + s);
-            other.evaluate(&moved(&figure.bodies, &accelerations, s));
+            other.evaluate(&shifted(&mechanism.bodies, &accelerations, s));
             other.states()[row].value
         };
         // Stiff answers move fast: what they bend by is measured against them.

@@ -5,10 +5,10 @@ use soffio_math::Function;
 use soffio_math::noise::Random;
 use soffio_math::spatial::Vec6;
 use soffio_math::{DVec3, rotation};
-use soffio_multibody::articulation::{Constraint, ConstraintKind, Method, System};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, LinearSolver, System};
 
-use super::figures::{Kinds, RandomFigure, below, body, figure, plane, point, vector, wrench};
-use super::kkt::{Answer, independent, reference, well_posed};
+use super::kkt::{Solution, independent, reference, well_posed};
+use super::mechanisms::{Kinds, RandomMechanism, below, body, mechanism, plane, point, vector, wrench};
 
 /// Of the largest unknown. Rows that lean on each other by less than `LEAST` are drawn anew: condition numbers stay
 /// below some 10⁵, so that a solver that loses no more than they cost is four digits better than this.
@@ -27,14 +27,14 @@ pub struct Posed {
     given: Vec<Vec6>,
 }
 
-pub fn prepare(figure: &RandomFigure, method: Method, friction: bool) -> System {
-    let mut system = System::new(&figure.bodies, &figure.driven, &figure.constraints, method);
-    system.activity.set_shares(figure.time);
-    system.activity.set_time(figure.time);
-    system.evaluate(&figure.bodies);
+pub fn prepare(mechanism: &RandomMechanism, method: LinearSolver, friction: bool) -> System {
+    let mut system = System::new(&mechanism.bodies, &mechanism.kinematic, &mechanism.constraints, method);
+    system.activity.update_activations(mechanism.time);
+    system.activity.set_time(mechanism.time);
+    system.evaluate(&mechanism.bodies);
     if friction {
         let loads = vec![10.0; system.joints().len()];
-        system.add_friction(&figure.bodies, &loads, 0.004);
+        system.add_friction(&mechanism.bodies, &loads, 0.004);
     }
     system.factor();
     system
@@ -43,10 +43,10 @@ pub fn prepare(figure: &RandomFigure, method: Method, friction: bool) -> System 
 impl Posed {
     /// Random forces, driven accelerations, and wanted J a (of random accelerations, so that they can be had).
     pub fn new(system: System, random: &mut Random) -> Self {
-        let n = system.driven().len();
+        let n = system.kinematic().len();
         let b: Vec<Vec6> = (0..n).map(|_| wrench(random)).collect();
         let wanted: Vec<Vec6> = (0..n).map(|_| wrench(random)).collect();
-        let given: Vec<Vec6> = (0..n).map(|i| if system.driven()[i] { wanted[i] } else { [0.0; 6] }).collect();
+        let given: Vec<Vec6> = (0..n).map(|i| if system.kinematic()[i] { wanted[i] } else { [0.0; 6] }).collect();
         let mut g = vec![0.0; system.g.len()];
         for row in system.acting_rows() {
             g[row] = product(&system, row, &wanted);
@@ -61,7 +61,7 @@ impl Posed {
         self.system.solve();
     }
 
-    pub fn reference(&self, bodies: &[RigidBody], rows: &[usize]) -> Answer {
+    pub fn reference(&self, bodies: &[RigidBody], rows: &[usize]) -> Solution {
         reference(&self.system, bodies, rows, (&self.b, &self.g, &self.given))
     }
 }
@@ -71,7 +71,7 @@ fn product(system: &System, row: usize, a: &[Vec6]) -> f64 {
     system.jacobian(row).iter().map(|(body, j)| (0..6).map(|k| j[k] * a[*body][k]).sum::<f64>()).sum()
 }
 
-pub fn largest(answer: &Answer) -> f64 {
+pub fn largest(answer: &Solution) -> f64 {
     let a = answer.a.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
     answer.lambda.iter().fold(a, |s, x| s.max(x.abs()))
 }
@@ -81,13 +81,13 @@ pub fn off(found: &[Vec6], expected: &[Vec6]) -> f64 {
 }
 
 #[test]
-fn both_solvers_find_what_elimination_finds_in_a_thousand_random_figures() {
+fn both_solvers_match_elimination_in_a_thousand_random_mechanisms() {
     let (mut worst, mut seed) = (0.0_f64, 0);
     let mut done = [0; 5];
     while done[0] < SYSTEMS {
-        let kinds = Kinds { loops: seed % 3 > 0, shares: seed % 4 == 1, friction: seed % 4 == 2 };
-        let figure = figure(&mut Random::new(seed), kinds);
-        let sparse = prepare(&figure, Method::Sparse, kinds.friction);
+        let kinds = Kinds { loops: seed % 3 > 0, partial_rows: seed % 4 == 1, friction: seed % 4 == 2 };
+        let mechanism = mechanism(&mut Random::new(seed), kinds);
+        let sparse = prepare(&mechanism, LinearSolver::Sparse, kinds.friction);
         let rows = sparse.acting_rows();
         let soft = rows.iter().any(|&row| sparse.compliance(row, row) > 0.0);
         // Friction's rows repeat what is held, softly: the others must stand by themselves.
@@ -96,16 +96,16 @@ fn both_solvers_find_what_elimination_finds_in_a_thousand_random_figures() {
         } else {
             rows.clone()
         };
-        if !well_posed(&sparse, &figure.bodies, &held, LEAST) {
+        if !well_posed(&sparse, &mechanism.bodies, &held, LEAST) {
             seed += 1;
             continue;
         }
-        let dense = prepare(&figure, Method::Dense, kinds.friction);
+        let dense = prepare(&mechanism, LinearSolver::Dense, kinds.friction);
         let mut answers: Vec<Vec<Vec6>> = Vec::new();
         for (method, system) in [("sparse", sparse), ("dense", dense)] {
             let mut posed = Posed::new(system, &mut Random::new(seed));
             posed.solve();
-            let expected = posed.reference(&figure.bodies, &rows);
+            let expected = posed.reference(&mechanism.bodies, &rows);
             let scale = largest(&expected).max(1.0);
             let mut error = off(&posed.system.a, &expected.a) / scale;
             for (index, &row) in rows.iter().enumerate() {
@@ -119,8 +119,10 @@ fn both_solvers_find_what_elimination_finds_in_a_thousand_random_figures() {
                 assert!(error < SOLVED, "seed {seed}: the solvers differ by {error:e}");
             }
         }
-        let couples = figure.constraints.iter().any(|c| matches!(c.kind, ConstraintKind::Coupling { .. }));
-        for (count, seen) in done.iter_mut().zip([true, kinds.loops, couples, soft, figure.driven.contains(&true)]) {
+        let couples = mechanism.constraints.iter().any(|c| matches!(c.kind, ConstraintKind::Coupling { .. }));
+        for (count, seen) in
+            done.iter_mut().zip([true, kinds.loops, couples, soft, mechanism.kinematic.contains(&true)])
+        {
             *count += u64::from(seen);
         }
         seed += 1;
@@ -130,31 +132,32 @@ fn both_solvers_find_what_elimination_finds_in_a_thousand_random_figures() {
 }
 
 /// A ring of hinges in a plane somewhere in space: three of its rows repeat others.
-fn planar_ring(random: &mut Random) -> RandomFigure {
+fn planar_ring(random: &mut Random) -> RandomMechanism {
     let count = 3 + below(random, 4);
-    let turn = rotation(3.0 * vector(random));
-    let normal = turn * DVec3::Z;
+    let rotated = rotation(3.0 * vector(random));
+    let normal = rotated * DVec3::Z;
     let bodies: Vec<RigidBody> = (0..count).map(|_| body(random)).collect();
     let mut constraints: Vec<Constraint> = Vec::new();
-    let pins: Vec<DVec3> = (0..count + 1).map(|_| turn * DVec3::new(random.signed(), random.signed(), 0.0)).collect();
+    let pins: Vec<DVec3> =
+        (0..count + 1).map(|_| rotated * DVec3::new(random.signed(), random.signed(), 0.0)).collect();
     for pin in 0..=count {
         let (a, b) = ((pin < count).then_some(pin), pin.checked_sub(1));
         let (Some(first), second) = (if a.is_some() { (a, b) } else { (b, None) }) else { continue };
-        let anchor = |body: Option<usize>| super::figures::world_anchor(&bodies, body, pins[pin]);
+        let anchor = |body: Option<usize>| super::mechanisms::world_anchor(&bodies, body, pins[pin]);
         let kind = ConstraintKind::PointToPoint { a: anchor(Some(first)), b: anchor(second) };
         constraints.push(Constraint::new(&format!("pin-{pin}/point"), kind));
-        for across in [turn * DVec3::X, turn * DVec3::Y] {
-            let axis = |body, v| super::figures::world_axis(&bodies, body, v);
+        for across in [rotated * DVec3::X, rotated * DVec3::Y] {
+            let axis = |body, v| super::mechanisms::world_axis(&bodies, body, v);
             let (a, b) = (axis(Some(first), normal), axis(second, across));
             let kind = ConstraintKind::Orientation { a, b, angle: Function::default() };
             constraints.push(Constraint::new(&format!("pin-{pin}/across"), kind));
         }
     }
-    RandomFigure { driven: vec![false; bodies.len()], bodies, constraints, time: 0.0 }
+    RandomMechanism { kinematic: vec![false; bodies.len()], bodies, constraints, time: 0.0 }
 }
 
 /// A tree in which one joint's rows are said again in other words.
-fn said_twice(random: &mut Random) -> RandomFigure {
+fn said_twice(random: &mut Random) -> RandomMechanism {
     let bodies: Vec<RigidBody> = (0..3).map(|_| body(random)).collect();
     let mut constraints = Vec::new();
     for (index, link) in [(Some(0), None), (Some(1), Some(0)), (Some(1), Some(2))].into_iter().enumerate() {
@@ -167,10 +170,11 @@ fn said_twice(random: &mut Random) -> RandomFigure {
         let kind = ConstraintKind::PointOnPlane { point: a, plane: b, normal, offset: Function::default() };
         constraints.push(Constraint::new("again", kind));
     }
-    let mut figure = RandomFigure { driven: vec![false; 3], bodies, constraints, time: 0.0 };
-    let gap = super::figures::world_point(&figure.bodies, &a) - super::figures::world_point(&figure.bodies, &b);
-    figure.bodies[1].position -= gap;
-    figure
+    let mut mechanism = RandomMechanism { kinematic: vec![false; 3], bodies, constraints, time: 0.0 };
+    let gap =
+        super::mechanisms::world_point(&mechanism.bodies, &a) - super::mechanisms::world_point(&mechanism.bodies, &b);
+    mechanism.bodies[1].position -= gap;
+    mechanism
 }
 
 #[test]
@@ -182,11 +186,11 @@ fn rows_that_repeat_others_are_found_and_leave_the_motion_as_it_is() {
     let mut done = 0;
     while done < REPEATING {
         let mut random = Random::new(seed);
-        let figure = if seed % 2 == 0 { planar_ring(&mut random) } else { said_twice(&mut random) };
-        for method in [Method::Sparse, Method::Dense] {
-            let system = prepare(&figure, method, false);
+        let mechanism = if seed % 2 == 0 { planar_ring(&mut random) } else { said_twice(&mut random) };
+        for method in [LinearSolver::Sparse, LinearSolver::Dense] {
+            let system = prepare(&mechanism, method, false);
             let rows = system.acting_rows();
-            let (kept, least) = independent(&system, &figure.bodies, &rows, REPEATS);
+            let (kept, least) = independent(&system, &mechanism.bodies, &rows, REPEATS);
             if least < LEAST {
                 continue;
             }
@@ -194,7 +198,7 @@ fn rows_that_repeat_others_are_found_and_leave_the_motion_as_it_is() {
             assert_eq!(system.redundant_rows().len(), rows.len() - kept.len(), "seed {seed}, {method:?}");
             let mut posed = Posed::new(system, &mut Random::new(seed));
             posed.solve();
-            let expected = posed.reference(&figure.bodies, &kept);
+            let expected = posed.reference(&mechanism.bodies, &kept);
             let error = off(&posed.system.a, &expected.a) / largest(&expected).max(1.0);
             assert!(error < SOLVED, "seed {seed}, {method:?}: off by {error:e}");
             worst = worst.max(error);

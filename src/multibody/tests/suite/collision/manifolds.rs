@@ -2,7 +2,7 @@
 
 use soffio_math::noise::Random;
 use soffio_math::{DQuat, DVec3, PI, Pose, rotation};
-use soffio_multibody::collision::{Corners, Manifold, Shape, proximity};
+use soffio_multibody::collision::{Manifold, ManifoldBuilder, Shape, proximity};
 
 use super::{EXACT, KINDS, collider, from_surface, plate, pose, shape, signed};
 
@@ -13,7 +13,7 @@ const ON_EDGES: f64 = 2e-4;
 
 fn manifold(a: &Shape, at_a: &Pose, b: &Shape, at_b: &Pose) -> Manifold {
     let (a, b) = (collider(Some(0), a.clone()), collider(None, b.clone()));
-    Corners::new(&[a.clone(), b.clone()]).manifold(&a, at_a, &b, at_b)
+    ManifoldBuilder::new(&[a.clone(), b.clone()]).manifold(&a, at_a, &b, at_b)
 }
 
 fn at(x: f64, y: f64, z: f64) -> Pose {

@@ -9,8 +9,8 @@ use soffio_math::{DQuat, DVec3, PI, Pose, rotation};
 use soffio_multibody::collision::{Collider, Proximity, Shape, proximity};
 
 mod manifolds;
-mod motion;
 mod pairs;
+mod swept;
 
 /// Sides of the prism that stands for a cylinder in references.
 const PRISM: usize = 360;

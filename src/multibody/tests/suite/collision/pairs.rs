@@ -1,12 +1,12 @@
-//! Which pairs can meet: exclusion with its reasons, bounds of reach, broad phase.
+//! Which pairs can meet: exclusion with its reasons, reachable volumes, broad phase.
 
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
-use soffio_multibody::collision::reach::{FixedAxis, JointEnd, JointPoint};
+use soffio_multibody::collision::reachable_volume::{FixedAxis, JointEnd, JointPoint};
 use soffio_multibody::collision::{
-    BroadPhase, Collider, Corners, Excluded, Exclusion, Pair, Reach, Reason, Shape, Sweep, pairs, proximity,
-    time_of_impact,
+    BroadPhase, Collider, ColliderPair, Excluded, Exclusion, ManifoldBuilder, MovingCollider, PairExclusion,
+    ReachableVolumes, Shape, Sweep, pairs, proximity, time_of_impact,
 };
 
 use super::{KINDS, collider, pose, shape, signed};
@@ -38,24 +38,24 @@ fn every_pair_left_out_has_its_reason() {
         [end(0, x), end(1, DVec3::ZERO)],
         [end(2, DVec3::ZERO), end(None, 5.0 * x)],
     ];
-    let reach = Reach::new(&colliders, &poses, &joints, &[]);
+    let bounding_radius = ReachableVolumes::new(&colliders, &poses, &joints, &[]);
     let excluded = [
         Exclusion { bodies: (Some(1), Some(0)), why: Excluded::Joined },
         Exclusion { bodies: (None, Some(3)), why: Excluded::ByCurator },
     ];
-    let found = pairs(&colliders, &excluded, &reach);
+    let found = pairs(&colliders, &excluded, &bounding_radius);
     let reason = |a: usize, b: usize| found.left_out.iter().find(|(p, _)| (p.a, p.b) == (a, b)).map(|(_, r)| *r);
-    assert_eq!(reason(0, 1), Some(Reason::SameBody));
-    assert_eq!(reason(0, 2), Some(Reason::Excluded(Excluded::Joined)));
-    assert_eq!(reason(4, 5), Some(Reason::Excluded(Excluded::ByCurator)));
-    assert_eq!(reason(5, 6), Some(Reason::BothStill));
+    assert_eq!(reason(0, 1), Some(PairExclusion::SameBody));
+    assert_eq!(reason(0, 2), Some(PairExclusion::Excluded(Excluded::Joined)));
+    assert_eq!(reason(4, 5), Some(PairExclusion::Excluded(Excluded::ByCurator)));
+    assert_eq!(reason(5, 6), Some(PairExclusion::BothStill));
     // Body 1 stays within 1.1 m of the nail at 0, body 2 within 0.1 m of the one at 5.
-    let Some(Reason::Unreachable(apart)) = reason(2, 3) else { panic!("{found:?}") };
+    let Some(PairExclusion::Unreachable(apart)) = reason(2, 3) else { panic!("{found:?}") };
     assert!((apart - 3.8).abs() < 1e-4, "{apart}");
-    let Some(Reason::Unreachable(apart)) = reason(2, 5) else { panic!("{found:?}") };
+    let Some(PairExclusion::Unreachable(apart)) = reason(2, 5) else { panic!("{found:?}") };
     assert!((apart - 8.8).abs() < 1e-4, "{apart}");
     // The free body may meet all but the world; every pair is told of once.
-    let free = [(0, 4), (1, 4), (2, 4), (3, 4)].map(|(a, b)| Pair { a, b });
+    let free = [(0, 4), (1, 4), (2, 4), (3, 4)].map(|(a, b)| ColliderPair { a, b });
     assert_eq!(found.meet, free);
     assert_eq!(found.meet.len() + found.left_out.len(), 7 * 6 / 2);
     let said = found.left_out.iter().map(|(_, reason)| reason.to_string()).collect::<Vec<_>>().join("; ");
@@ -64,7 +64,7 @@ fn every_pair_left_out_has_its_reason() {
     }
     // An open joint holds nothing.
     let scattered = [Pose::IDENTITY, Pose::IDENTITY, poses[2], poses[3]];
-    assert!(Reach::new(&colliders, &scattered, &joints, &[]).clearance(2, 3) < 0.0);
+    assert!(ReachableVolumes::new(&colliders, &scattered, &joints, &[]).clearance(2, 3) < 0.0);
 }
 
 /// A random tree of bodies hung from nails: each body's parent (or the world) and the joint.
@@ -96,10 +96,10 @@ fn no_motion_of_a_tree_leaves_its_bounds() {
             colliders.push(collider(None, shape((random.word() % KINDS as u64) as usize, random)));
         }
         colliders.push(collider(None, Shape::plane(DVec3::Y * -0.6, DVec3::Y)));
-        let reach = Reach::new(&colliders, &poses, &joints, &[axis]);
+        let bounding_radius = ReachableVolumes::new(&colliders, &poses, &joints, &[axis]);
         let still: Vec<(usize, usize, f64)> = (0..colliders.len())
             .flat_map(|i| (i + 1..colliders.len()).map(move |j| (i, j)))
-            .map(|(i, j)| (i, j, reach.clearance(i, j)))
+            .map(|(i, j)| (i, j, bounding_radius.clearance(i, j)))
             .filter(|(i, j, apart)| *apart > 0.0 && colliders[*i].body != colliders[*j].body)
             .collect();
         bounded += still.len();
@@ -129,7 +129,7 @@ fn no_motion_of_a_tree_leaves_its_bounds() {
 
 #[test]
 fn what_turns_about_one_line_stays_in_its_ring() {
-    // Two wheels on one axle, one beside the other, and a post in the reach of neither but in both their balls.
+    // Two wheels on one axle, one beside the other, and a post that neither reaches but in both their balls.
     let wheel = |body: usize| collider(Some(body), Shape::cylinder(-0.01 * DVec3::Z, 0.01 * DVec3::Z, 0.2, 0.0));
     let colliders = [
         wheel(0),
@@ -139,9 +139,9 @@ fn what_turns_about_one_line_stays_in_its_ring() {
     let poses = [0.0, 0.05].map(|z| Pose { rotation: DQuat::IDENTITY, position: DVec3::Z * z });
     let joints = [0, 1].map(|b| [end(b, DVec3::ZERO), end(None, poses[b].position)]);
     let axes = [0, 1].map(|body| FixedAxis { body, point: DVec3::ZERO, direction: DVec3::Z });
-    let free = Reach::new(&colliders, &poses, &joints, &[]);
+    let free = ReachableVolumes::new(&colliders, &poses, &joints, &[]);
     assert!(free.clearance(0, 1) < 0.0);
-    let held = Reach::new(&colliders, &poses, &joints, &axes);
+    let held = ReachableVolumes::new(&colliders, &poses, &joints, &axes);
     assert!((held.clearance(0, 1) - 0.03).abs() < 1e-4, "{}", held.clearance(0, 1));
 }
 
@@ -179,7 +179,7 @@ fn of_many_pairs_the_same_are_found_as_at_first_sight() {
         ball(0, 0.1 * DVec3::new(c, s, 0.0))
     });
     let colliders: Vec<Collider> = ring.chain((0..3).map(|k| ball(1, 0.01 * f64::from(k) * DVec3::X))).collect();
-    let pairs = pairs(&colliders, &[], &Reach::default()).meet;
+    let pairs = pairs(&colliders, &[], &ReachableVolumes::default()).meet;
     let properties = MassProperties { mass: 1.0, center: DVec3::ZERO, inertia: DMat3::IDENTITY };
     let at = |x: f64| Pose { rotation: DQuat::IDENTITY, position: DVec3::X * x };
     let mut bodies = [RigidBody::at_rest(properties, at(0.0)), RigidBody::at_rest(properties, at(0.1))];
@@ -210,7 +210,7 @@ fn the_broad_phase_finds_whatever_meets() {
     let (mut kept, mut all, mut hits) = (0, 0, 0);
     for seed in 0..60 {
         let (colliders, sweeps) = scene(seed, 12);
-        let pairs = pairs(&colliders, &[], &Reach::default()).meet;
+        let pairs = pairs(&colliders, &[], &ReachableVolumes::default()).meet;
         let mut broad = BroadPhase::new(&colliders, &pairs);
         let mut found = vec![99];
         broad.candidates(&sweeps, &mut found);
@@ -218,13 +218,17 @@ fn the_broad_phase_finds_whatever_meets() {
         let mut again = Vec::new();
         broad.candidates(&sweeps, &mut again);
         assert_eq!(found, again, "seed {seed}: the order of the last call shows");
-        let sweep = |c: &Collider| c.body.map_or(Sweep::STILL, |b| sweeps[b]);
+        let sweep = |c: &Collider| c.body.map_or(Sweep::STATIC, |b| sweeps[b]);
         // Centres of mass lie within 0.1 m of the frames' origins.
-        let reach = |c: &Collider| c.shape.reach(DVec3::ZERO) + 0.1;
+        let bounding_radius = |c: &Collider| c.shape.bounding_radius(DVec3::ZERO) + 0.1;
         for (index, pair) in pairs.iter().enumerate() {
             let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
             let (sa, sb) = (sweep(a), sweep(b));
-            let hit = time_of_impact(&mut Corners::default(), (a, &sa, reach(a)), (b, &sb, reach(b)));
+            let hit = time_of_impact(
+                &ManifoldBuilder::default(),
+                MovingCollider { collider: a, sweep: &sa, bounding_radius: bounding_radius(a) },
+                MovingCollider { collider: b, sweep: &sb, bounding_radius: bounding_radius(b) },
+            );
             // The hit is where the broad phase must not be wrong.
             let met = hit.is_some_and(|hit| hit.proximity.gap < 1e-5);
             hits += usize::from(met);
@@ -255,7 +259,7 @@ fn boxes_follow_the_shape_along_its_way() {
             let on_way = sweep.pose(f64::from(k) / 20.0).point(far);
             let mut both = colliders.clone();
             both[1] = ball(None, on_way, 1e-6);
-            let mut broad = BroadPhase::new(&both, &[Pair { a: 0, b: 1 }]);
+            let mut broad = BroadPhase::new(&both, &[ColliderPair { a: 0, b: 1 }]);
             let mut found = Vec::new();
             broad.candidates(&[sweep], &mut found);
             assert_eq!(found, [0], "seed {seed}, sample {k}");

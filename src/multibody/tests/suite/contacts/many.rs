@@ -21,11 +21,11 @@ fn drift(dynamics: &Dynamics, before: &[RigidBody]) -> f64 {
 /// The deepest overlap of any two colliders, m.
 fn overlap(scene: &Scene, dynamics: &Dynamics) -> f64 {
     let pose = |collider: &Collider| collider.body.map_or(Pose::IDENTITY, |body| dynamics.bodies[body].pose());
-    let of_pair = |pair: soffio_multibody::collision::Pair| {
+    let of_pair = |pair: soffio_multibody::collision::ColliderPair| {
         let [a, b] = [pair.a, pair.b].map(|index| &scene.colliders[index]);
         -soffio_multibody::collision::proximity(&a.shape, &pose(a), &b.shape, &pose(b)).gap
     };
-    pairs(&scene.colliders, &[], &Reach::default()).meet.into_iter().map(of_pair).fold(0.0, f64::max)
+    pairs(&scene.colliders, &[], &ReachableVolumes::default()).meet.into_iter().map(of_pair).fold(0.0, f64::max)
 }
 
 #[test]

@@ -8,7 +8,7 @@ use assert_no_alloc::assert_no_alloc;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, Limit, LimitKind, Measure};
-use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
+use soffio_multibody::collision::{Collider, ReachableVolumes, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
     Articulation, Dynamics, Impact, ImpactKind, Integrator, RollingResistance, Settings, Solver, SurfacePair,
@@ -90,7 +90,7 @@ impl Scene {
     }
 
     fn dynamics(&self) -> Dynamics {
-        let surfaces = pairs(&self.colliders, &[], &Reach::default())
+        let surfaces = pairs(&self.colliders, &[], &ReachableVolumes::default())
             .meet
             .into_iter()
             .map(|pair| SurfacePair {

@@ -3,7 +3,7 @@
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::matrix;
 use soffio_math::{DVec3, PI, rotation};
-use soffio_multibody::articulation::rows::Scene;
+use soffio_multibody::articulation::rows::BodyStates;
 use soffio_multibody::articulation::rows::coupling::{self, Gauge};
 use soffio_multibody::articulation::{ConstraintKind, Measure, Term};
 use soffio_multibody::dynamics::{Dynamics, Integrator};
@@ -26,7 +26,7 @@ impl World {
 
     fn displacement(&self, body: usize, direction: DVec3) -> Measure {
         let point = self.anchor(Some(body), self.bodies[body].position);
-        Measure::Way { point, direction: self.axis(None, direction) }
+        Measure::Displacement { point, direction: self.axis(None, direction) }
     }
 }
 
@@ -182,7 +182,7 @@ fn a_weight_on_a_drum_falls_with_its_share_of_g() {
         let off = dynamics.bodies[0].angular_velocity.z - a / r;
         assert!(off.abs() < 1e2 * ROUNDING, "{integrator:?}: off by {off:e} rad/s");
         // The cord pulls with m (g − a).
-        let (tension, _) = dynamics.system().carried(world.constraints.len() - 1);
+        let tension = dynamics.system().constraint_load(world.constraints.len() - 1).force;
         assert!((tension - m * (G - a)).abs() < ROUNDING, "{tension} N");
     }
 }
@@ -212,7 +212,7 @@ fn a_compound_pulley_halves_the_way() {
 fn slip(gauges: &[(Gauge, f64)], bodies: &[RigidBody]) -> f64 {
     let frames: Vec<_> = bodies.iter().map(|b| matrix(b.rotation)).collect();
     let mut parts: Vec<_> = (0..bodies.len()).map(|i| (i, [0.0; 6])).collect();
-    coupling::row(&Scene { bodies, frames: &frames, time: 0.0 }, gauges, &mut parts).value
+    coupling::row(&BodyStates { bodies, frames: &frames, time: 0.0 }, gauges, &mut parts).value
 }
 
 #[test]

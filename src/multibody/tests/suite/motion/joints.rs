@@ -23,7 +23,7 @@ fn a_bead_slides_down_a_plane_with_g_sine() {
         let off = dynamics.bodies[0].position - world.bodies[0].position - 0.5 * along;
         assert!(off.length() < ROUNDING, "{integrator:?}: off by {off}");
         // Its normal force is m g cos.
-        let (force, _) = dynamics.system().carried(0);
+        let force = dynamics.system().constraint_load(0).force;
         assert!((force - 0.2 * G * normal.y).abs() < ROUNDING);
     }
 }
@@ -98,7 +98,7 @@ fn a_bead_on_a_turning_wire_is_thrown_out_by_the_hyperbolic_cosine() {
         // The motion is no polynomial: the error of fourth order is (Ωh)⁵ a step.
         let allowed = if integrator == Integrator::Precise { ROUNDING } else { 1e-9 };
         assert!(off.length() < allowed, "{integrator:?}: off by {off}");
-        let push = dynamics.system().carried(0).0.hypot(dynamics.system().carried(1).0);
+        let push = dynamics.system().constraint_load(0).force.hypot(dynamics.system().constraint_load(1).force);
         let expected = 2.0 * mass * omega * omega * start * (omega * SECOND).sinh();
         assert!((push - expected).abs() < 10.0 * allowed, "{push} N against {expected} N");
     }
@@ -206,7 +206,7 @@ fn a_windmill_keeps_its_spin_while_its_mast_turns_it() {
             let sails = &dynamics.bodies[0];
             assert!((sails.rotation * DVec3::Z).distance(axle) < ROUNDING);
             assert!((sails.angular_velocity.dot(axle) - spin).abs() < allowed);
-            let torque = dynamics.system().carried(1).1.hypot(dynamics.system().carried(2).1);
+            let torque = dynamics.system().constraint_load(1).torque.hypot(dynamics.system().constraint_load(2).torque);
             assert!((torque - inertia * spin * yaw).abs() < allowed, "{torque} N m");
         }
         // Now the mast is stopped, and a wind pushes and tilts it as well.
@@ -262,8 +262,8 @@ fn bodies_follow_a_function_and_bear_its_acceleration() {
                 stone.position.y - now.value,
                 stone.velocity.y - now.rate,
                 stone.velocity.x - 0.2,
-                dynamics.system().carried(3).1 - (inertia * now.acceleration).abs(),
-                dynamics.system().carried(4).0 - (0.5 * (now.acceleration + G)).abs(),
+                dynamics.system().constraint_load(3).torque - (inertia * now.acceleration).abs(),
+                dynamics.system().constraint_load(4).force - (0.5 * (now.acceleration + G)).abs(),
             ];
             assert!(off.iter().all(|x| x.abs() < ROUNDING), "{integrator:?}, step {index}: {off:?}");
         }
@@ -305,7 +305,7 @@ fn bodies_are_where_their_keys_say_and_hanging_bodies_feel_it() {
             let spin = now.angular_velocity;
             let lift = now.acceleration + now.angular_acceleration.cross(arm) + spin.cross(spin.cross(arm));
             let expected = 0.2 * (lift + DVec3::Y * G).length();
-            let (found, _) = dynamics.system().carried(0);
+            let found = dynamics.system().constraint_load(0).force;
             assert!((found - expected).abs() < 10.0 * ROUNDING, "{found} N against {expected} N");
         }
     }

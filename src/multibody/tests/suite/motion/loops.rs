@@ -122,14 +122,14 @@ fn ladders_and_nets_stay_closed_and_keep_their_energy() {
 fn the_factor_of_a_ladder_grows_with_its_loops_and_no_faster() {
     // The first and the last loops are a little cheaper than those between.
     const EVEN: f64 = 1.25;
-    let numbers = |loops: usize| ladder(loops).start(Integrator::Auto).system().loop_numbers() as f64 / loops as f64;
+    let numbers = |loops: usize| ladder(loops).start(Integrator::Auto).system().loop_factor_len() as f64 / loops as f64;
     let few = numbers(5);
     for loops in [10, 20, 40, 80, 160] {
         let more = numbers(loops);
         assert!((1.0 / EVEN..EVEN).contains(&(more / few)), "{loops} loops: {more} numbers each, {few} in 5");
     }
     // A net's factor is about n^1.5 knots: four times the knots, eight times the numbers, where a dense one has sixteen.
-    let knots = |n: usize| net(n).start(Integrator::Auto).system().loop_numbers() as f64;
+    let knots = |n: usize| net(n).start(Integrator::Auto).system().loop_factor_len() as f64;
     assert!(knots(12) / knots(6) < 9.0, "{} numbers and {}", knots(6), knots(12));
 }
 
@@ -191,7 +191,7 @@ fn a_chain_between_two_walls_bears_the_tension_of_the_catenary() {
     let mut worst = 0.0_f64;
     for i in 0..=LINKS {
         let up = MASS * G * (i as f64 - 0.5 * LINKS as f64);
-        let (found, _) = dynamics.system().carried(i);
+        let found = dynamics.system().constraint_load(i).force;
         worst = worst.max((found / pull.hypot(up) - 1.0).abs());
     }
     println!("catenary: tension off by {worst:.1e}, from the smooth one by {:.1e}", (pull / smooth - 1.0).abs());
@@ -226,7 +226,7 @@ fn a_chain_hung_askew_comes_to_rest_as_a_catenary() {
     let mut worst = 0.0_f64;
     for i in 0..=LINKS {
         let up = MASS * G * (i as f64 - 0.5 * LINKS as f64);
-        let (found, _) = dynamics.system().carried(i);
+        let found = dynamics.system().constraint_load(i).force;
         worst = worst.max((found / pull.hypot(up) - 1.0).abs());
     }
     println!("chain hung askew: tension off by {worst:.1e}");

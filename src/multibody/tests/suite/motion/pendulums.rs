@@ -165,7 +165,7 @@ fn a_point_goes_along_its_path_and_feels_what_that_takes() {
             assert!(dynamics.bodies[0].position.distance(now.pose.position) < CLOSED);
             assert!(dynamics.bodies[0].velocity.distance(now.velocity) < ROUNDING);
             let expected = mass * (now.acceleration + DVec3::Y * G).length();
-            let (found, _) = dynamics.system().carried(0);
+            let found = dynamics.system().constraint_load(0).force;
             assert!((found - expected).abs() < ROUNDING, "{found} N against {expected} N");
         }
     }

@@ -4,9 +4,9 @@ use soffio_math::Function;
 use soffio_math::Interpolation;
 use soffio_math::{DVec3, rotation};
 use soffio_multibody::articulation::{
-    Breaking, Constraint, ConstraintKind, Measure, Schedule, Spring, SpringKind, Term, Trigger, Window,
+    Breaking, Constraint, ConstraintKind, Load, Measure, Schedule, Spring, SpringKind, Term, Trigger, Window,
 };
-use soffio_multibody::collision::{Collider, Reach, Shape, pairs};
+use soffio_multibody::collision::{Collider, ReachableVolumes, Shape, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{Articulation, Dynamics, Integrator, RollingResistance, SurfacePair};
 
@@ -134,7 +134,7 @@ fn an_overloaded_nail_breaks_within_the_substep() {
         let substep = DT / f64::from(dynamics.substeps());
         assert!(found >= expected - 1e-9 && found <= expected + substep, "{integrator:?}: {found} s, not {expected} s");
         run(&mut dynamics, 0.2, DT);
-        assert_eq!(dynamics.system().carried(0), (0.0, 0.0));
+        assert_eq!(dynamics.system().constraint_load(0), Load::default());
         assert!(dynamics.bodies[0].position.y < -0.25, "it still hangs");
         assert!(dynamics.breaks().is_empty(), "it breaks once");
     }
@@ -183,7 +183,7 @@ fn a_hinge_breaks_as_a_whole_and_heals_gently() {
         assert_eq!(dynamics.breaks().len(), 1, "{:?}", dynamics.breaks());
         let broken = dynamics.breaks()[0].time;
         for index in 0..3 {
-            assert_eq!(dynamics.system().activity.share(index), 0.0, "part {index} still holds");
+            assert_eq!(dynamics.system().activity.activation(index), 0.0, "part {index} still holds");
         }
         run(&mut dynamics, restore - 2.0 * DT, DT);
         let gap = |d: &Dynamics| d.bodies[0].pose().point(world.anchor(Some(0), DVec3::ZERO).point).length();
@@ -215,7 +215,7 @@ fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
         world.constraints[1].schedule = window(f64::NEG_INFINITY, 0.5);
         let mut dynamics = world.start(integrator);
         run(&mut dynamics, 0.25, DT);
-        let loads = |d: &Dynamics| [d.system().carried(0).0, d.system().carried(1).0];
+        let loads = |d: &Dynamics| [d.system().constraint_load(0).force, d.system().constraint_load(1).force];
         let [left, right] = loads(&dynamics);
         assert!((left - 0.5 * m * G).abs() < ROUNDING && (right - 0.5 * m * G).abs() < ROUNDING, "{left} {right}");
         run(&mut dynamics, 0.25, DT);
@@ -239,7 +239,7 @@ fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
         for index in 0..48 {
             step(&mut dynamics, DT, &torque);
             let expected = if f64::from(index + 1) * DT <= 0.1 { 0.005 } else { 0.0 };
-            let (found, _) = dynamics.system().carried(last);
+            let found = dynamics.system().constraint_load(last).force;
             assert!((found - expected).abs() < ROUNDING, "{integrator:?}, step {index}: {found}");
         }
     }
@@ -305,7 +305,7 @@ fn an_impact_releases_the_constraint_that_it_triggers() {
         material: 0,
         node: String::new(),
     });
-    let meet = pairs(&colliders, &[], &Reach::default()).meet;
+    let meet = pairs(&colliders, &[], &ReachableVolumes::default()).meet;
     let articulation = Articulation {
         bodies: world.bodies.clone(),
         damping: vec![Damping::default(); 2],
@@ -338,5 +338,5 @@ fn an_impact_releases_the_constraint_that_it_triggers() {
         }
     }
     assert!(fastest > 0.1 && hit_at.is_finite());
-    assert_eq!(dynamics.system().activity.share(2), 0.0, "a light hit fires no heavy trigger");
+    assert_eq!(dynamics.system().activity.activation(2), 0.0, "a light hit fires no heavy trigger");
 }

@@ -2,7 +2,7 @@
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
-use soffio_multibody::procedural::{Method, REACHED, Settings};
+use soffio_multibody::procedural::{POSITION_TOLERANCE, PositionSolver, Settings};
 
 use super::{Extras, Hand, chain, end_of};
 
@@ -18,27 +18,27 @@ fn by_the_sources_rule_the_chain_of_more_inertia_turns_less() {
         for body in &mut world.bodies {
             body.properties.inertia *= factor;
         }
-        let settings = Settings { method: Method::Compulsive, retention: 0.5, ..Settings::default() };
+        let settings = Settings { method: PositionSolver::Relaxation, retention: 0.5, ..Settings::default() };
         let mut hand = Hand::with(&world, &Extras::default(), settings);
-        let (mut turn, mut behind) = (0.0_f64, 0.0_f64);
+        let (mut rotation, mut behind) = (0.0_f64, 0.0_f64);
         for step in 1..=60 {
             // Half a metre to the side and a little up, in a quarter of a second.
             let t = f64::from(step) / 60.0;
-            let way = t * t * (3.0 - 2.0 * t);
-            let place = DVec3::new(0.5 * way, -PITCH + 0.1 * way, 0.0);
+            let displacement = t * t * (3.0 - 2.0 * t);
+            let place = DVec3::new(0.5 * displacement, -PITCH + 0.1 * displacement, 0.0);
             hand.step(1.0 / 240.0, &[end_of(&world, 0, PITCH, place)]);
-            let reach = hand.procedural.reach();
-            assert!(reach.residual <= REACHED, "step {step}: {reach:?}");
+            let report = hand.procedural.report();
+            assert!(report.residual <= POSITION_TOLERANCE, "step {step}: {report:?}");
             let links = hand.bodies()[1..].iter();
             let leans = |b: &RigidBody| {
                 let angle = (b.rotation * DVec3::Y).angle_between(DVec3::Y);
                 angle * angle
             };
-            turn += links.map(leans).sum::<f64>() / (LINKS - 1) as f64 / 60.0;
+            rotation += links.map(leans).sum::<f64>() / (LINKS - 1) as f64 / 60.0;
             let end = hand.bodies()[LINKS - 1].position;
             behind = behind.max(place.x - end.x);
         }
-        (turn.sqrt(), behind)
+        (rotation.sqrt(), behind)
     };
     let (light, heavy) = (turned(1.0), turned(3.0));
     println!(

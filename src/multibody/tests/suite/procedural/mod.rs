@@ -2,24 +2,25 @@
 //! touch, and the change from one kind of motion to the other.
 
 mod chains;
-mod drags;
-mod figures;
-mod rule;
-mod touches;
+mod contact_response;
+mod grabs;
+mod mechanisms;
+mod two_body_rule;
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit};
-use soffio_multibody::collision::{Collider, Reach, pairs};
+use soffio_multibody::collision::{Collider, ReachableVolumes, pairs};
 use soffio_multibody::dynamics::forces::Damping;
 use soffio_multibody::dynamics::{
-    Articulation, Dynamics, Integrator, KinematicBody, RollingResistance, Settings as Laws, Solver, SurfacePair,
+    Articulation, Dynamics, Integrator, KinematicBody, RollingResistance, Settings as DynamicsSettings, Solver,
+    SurfacePair,
 };
-use soffio_multibody::procedural::{Grip, Method, Procedural, Settings};
+use soffio_multibody::procedural::{GrabTarget, PositionSolver, Procedural, Settings};
 
 use crate::motion::World;
 
-pub const METHODS: [Method; 2] = [Method::Compulsive, Method::TreeSolve];
+pub const METHODS: [PositionSolver; 2] = [PositionSolver::Relaxation, PositionSolver::TreeSolve];
 
 /// A figure in a mover's hands.
 pub struct Hand {
@@ -39,19 +40,19 @@ pub struct Extras {
 }
 
 impl Hand {
-    pub fn new(world: &World, method: Method) -> Self {
+    pub fn new(world: &World, method: PositionSolver) -> Self {
         Self::with(world, &Extras::default(), Settings { method, ..Settings::default() })
     }
 
     pub fn with(world: &World, extras: &Extras, settings: Settings) -> Self {
-        let dynamics = laws(world, extras);
+        let dynamics = dynamics_of(world, extras);
         let procedural = Procedural::new(&dynamics, settings);
         Self { dynamics, procedural, impacts: Vec::new() }
     }
 
-    pub fn step(&mut self, dt: f64, grips: &[Grip]) {
-        let still = vec![[0.0; 6]; self.dynamics.bodies.len()];
-        let bad = self.procedural.step(&mut self.dynamics, dt, &still, grips, &mut self.impacts);
+    pub fn step(&mut self, dt: f64, grabs: &[GrabTarget]) {
+        let no_wrench = vec![[0.0; 6]; self.dynamics.bodies.len()];
+        let bad = self.procedural.step(&mut self.dynamics, dt, &no_wrench, grabs, &mut self.impacts);
         assert_eq!(bad, None, "bad numbers");
     }
 
@@ -61,24 +62,24 @@ impl Hand {
 }
 
 /// The same figure under the laws.
-pub fn laws(world: &World, extras: &Extras) -> Dynamics {
+pub fn dynamics_of(world: &World, extras: &Extras) -> Dynamics {
     let (constraints, kinematic_bodies): (&[Constraint], &[KinematicBody]) =
         (&world.constraints, &world.kinematic_bodies);
     let Extras { restitution, friction, resistance, .. } = *extras;
     let surface = |pair| SurfacePair { pair, restitution, friction, resistance };
-    let figure = Articulation {
+    let articulation = Articulation {
         bodies: world.bodies.clone(),
         damping: vec![world.damping; world.bodies.len()],
         constraints,
         limits: &extras.limits,
         springs: &world.springs,
         kinematic_bodies,
-        pairs: pairs(&extras.colliders, &[], &Reach::default()).meet.into_iter().map(surface).collect(),
+        pairs: pairs(&extras.colliders, &[], &ReachableVolumes::default()).meet.into_iter().map(surface).collect(),
         colliders: &extras.colliders,
     };
     Dynamics::new(
-        figure,
-        Laws {
+        articulation,
+        DynamicsSettings {
             gravity: world.gravity,
             friction: world.damping != Damping::default(),
             stabilization_time: 0.04,
@@ -89,11 +90,11 @@ pub fn laws(world: &World, extras: &Extras) -> Dynamics {
 }
 
 /// A chain of rods that hangs from the origin (or floats), each `length` long, of these masses.
-pub fn chain(masses: &[f64], length: f64, nailed: bool) -> World {
+pub fn chain(masses: &[f64], length: f64, anchored: bool) -> World {
     let down = |k: usize| DVec3::NEG_Y * (length * k as f64);
     let bodies = masses.iter().enumerate().map(|(k, &mass)| crate::motion::rod(mass, down(k), down(k + 1))).collect();
     let mut world = World::new(bodies);
-    if nailed {
+    if anchored {
         world.pin("nail", 0, None, DVec3::ZERO);
     }
     for k in 1..masses.len() {
@@ -103,7 +104,7 @@ pub fn chain(masses: &[f64], length: f64, nailed: bool) -> World {
 }
 
 /// A hand on the end of a rod of [`chain`], at a place.
-pub fn end_of(world: &World, body: usize, length: f64, place: DVec3) -> Grip {
+pub fn end_of(world: &World, body: usize, length: f64, place: DVec3) -> GrabTarget {
     let end = DVec3::NEG_Y * (length * (body + 1) as f64);
-    Grip { body, point: world.bodies[body].pose().inverse_point(end), place }
+    GrabTarget { body, point: world.bodies[body].pose().inverse_point(end), target: place }
 }

@@ -1,0 +1,291 @@
+//! Closure of one joint by moving one body: the source's rule, then Newton's method on the remaining rows.
+//!
+//! A joint may have any rows: points, planes, orientations, in any number. In this order
+//!
+//! 1. orientations: the least turn that closes them;
+//! 2. the first point or plane: compulsive rotation, of which the orientations leave only what turns about none of the
+//!    axes e that they hold (w − Σ (w·ê) ê), and compulsive translation; for a plane s = −C N;
+//! 3. all rows together, and the pair's violated limits (method 3.5: an angle beyond its limit is put back to it):
+//! Newton steps on the body's six coordinates, of least kinetic energy,
+//!
+//! ```text
+//! K = J M⁻¹ Jᵀ        δ = −M⁻¹ Jᵀ K⁻¹ C
+//! ```
+//!
+//! A ball joint is exact after the second. Redundant rows count once
+//! (`soffio_math::spatial::row_blocks::pseudo_inverse`).
+
+use super::two_body_rule::{self, RotationRule};
+use crate::articulation::rows::{BodyStates, JacobianRow, orientation, plane, point};
+use crate::articulation::{Anchor, ConstraintKind, Joint, System};
+use crate::dynamics::Contacts;
+use soffio_geometry::bodies::RigidBody;
+use soffio_math::spatial::matrix;
+use soffio_math::spatial::row_blocks::pseudo_inverse;
+use soffio_math::spatial::row_blocks::{MAX_ROWS, RowBlock, RowSquare, RowVec};
+use soffio_math::spatial::{Vec6, add_scaled, angular, dot, linear, vec6};
+use soffio_math::{DMat3, DVec3};
+
+/// Error below which rows are closed, m or rad.
+const CLOSED: f64 = 1e-13;
+/// Most Newton steps for one joint. A joint that can be closed takes three or four.
+const MAX_NEWTON_STEPS: usize = 12;
+/// Largest rotation in one of them, rad: beyond it the linearisation is poor.
+const MAX_ROTATION: f64 = 0.7;
+
+/// Bodies during a relaxation.
+pub(super) struct Configuration<'a> {
+    pub bodies: &'a mut [RigidBody],
+    /// Rotation matrices of the bodies.
+    pub frames: &'a mut [DMat3],
+    pub system: &'a System,
+    pub contacts: &'a Contacts,
+    /// Target error of each row, m or rad.
+    pub targets: &'a [f64],
+}
+
+/// Rows of a joint with their blocks on one body.
+struct BodyRows {
+    count: usize,
+    blocks: RowBlock,
+    values: RowVec,
+}
+
+impl BodyRows {
+    fn none() -> Self {
+        Self { count: 0, blocks: [[0.0; 6]; MAX_ROWS], values: [0.0; MAX_ROWS] }
+    }
+
+    fn push(&mut self, block: &Vec6, value: f64) {
+        if self.count < MAX_ROWS {
+            (self.blocks[self.count], self.values[self.count]) = (*block, value);
+            self.count += 1;
+        }
+    }
+
+    /// Largest value.
+    fn open(&self) -> f64 {
+        self.values[..self.count].iter().fold(0.0, |most: f64, value| most.max(value.abs()))
+    }
+
+    /// δ of the module's head.
+    fn least(&self, inverse_mass: f64, inverse_inertia: &DMat3) -> Vec6 {
+        let n = self.count;
+        let mut pushed = [[0.0; 6]; MAX_ROWS];
+        for (pushed, block) in pushed[..n].iter_mut().zip(&self.blocks) {
+            *pushed = vec6(inverse_mass * linear(block), *inverse_inertia * angular(block));
+        }
+        let mut k: RowSquare = [[0.0; MAX_ROWS]; MAX_ROWS];
+        for i in 0..n {
+            for j in 0..=i {
+                k[i][j] = dot(&self.blocks[i], &pushed[j]);
+            }
+        }
+        pseudo_inverse(&mut k, n);
+        let mut delta = [0.0; 6];
+        for (i, pushed) in pushed[..n].iter().enumerate() {
+            let lambda: f64 = (0..n).map(|j| -k[i][j] * self.values[j]).sum();
+            add_scaled(&mut delta, lambda, pushed);
+        }
+        delta
+    }
+}
+
+impl Configuration<'_> {
+    /// Moves a body by a displacement of its centre (m) and a rotation vector (rad).
+    pub fn displace(&mut self, body: usize, displacement: DVec3, turn: DVec3) {
+        self.bodies[body].displace(displacement, turn);
+        self.frames[body] = matrix(self.bodies[body].rotation);
+    }
+
+    /// World inertia of a body, kg m².
+    pub fn inertia(&self, body: usize) -> DMat3 {
+        let frame = self.frames[body];
+        frame * self.bodies[body].properties.inertia * frame.transpose()
+    }
+
+    fn scene(&self) -> BodyStates<'_> {
+        BodyStates { bodies: self.bodies, frames: self.frames, time: self.system.activity.time() }
+    }
+
+    /// Moves the joint point of a body, at the arm r, by s with a rotation rule; the body does not rotate about
+    /// `fixed_axes`.
+    pub fn pull(
+        &mut self,
+        body: usize,
+        (r, s): (DVec3, DVec3),
+        (rotation_rule, mass): (RotationRule, f64),
+        fixed_axes: &[DVec3],
+    ) {
+        let mut rotation_vector = two_body_rule::rotation_vector(rotation_rule, r, s, &self.inertia(body), mass);
+        for axis in fixed_axes {
+            rotation_vector -= rotation_vector.dot(*axis) * *axis;
+        }
+        let rotation = matrix(soffio_math::rotation(rotation_vector));
+        self.displace(body, two_body_rule::compulsive_translation(r, s, &rotation), rotation_vector);
+    }
+
+    /// Closes a joint by moving the body `own`; `mass` is its group's, `limits` are those between the joint's bodies.
+    pub fn close(&mut self, joint: usize, own: usize, (rotation_rule, mass): (RotationRule, f64), limits: &[usize]) {
+        let system = self.system;
+        let joint = &system.joints()[joint];
+        let (mut fixed_axes, axes) = ([DVec3::ZERO; 3], self.close_orientations(joint, own));
+        let mut count = 0;
+        for axis in axes {
+            let mut axis = axis;
+            for known in &fixed_axes[..count] {
+                axis -= axis.dot(*known) * *known;
+            }
+            if let Some(axis) = axis.try_normalize().filter(|_| axis.length_squared() > 1e-6) {
+                fixed_axes[count] = axis;
+                count += 1;
+            }
+        }
+        if let Some((r, s)) = self.first_pull(joint, own) {
+            self.pull(own, (r, s), (rotation_rule, mass), &fixed_axes[..count]);
+        }
+        let lone = limits.is_empty() && joint.constraints.len() == 1;
+        if lone && matches!(system.constraints()[joint.constraints[0]].kind, ConstraintKind::PointToPoint { .. }) {
+            return;
+        }
+        for _ in 0..MAX_NEWTON_STEPS {
+            let mut rows = self.rows(joint, own, |_| true);
+            for &bound in limits {
+                let (gap, ends) = self.contacts.bound(bound, self.bodies);
+                let block = ends.iter().flatten().find(|(body, _)| *body == own);
+                if let Some((_, block)) = block.filter(|_| gap < -CLOSED) {
+                    rows.push(block, gap);
+                }
+            }
+            if !self.newton(own, &rows) {
+                break;
+            }
+        }
+    }
+
+    /// Rotates a body so that the joint's orientations close; returns their axes.
+    fn close_orientations(&mut self, joint: &Joint, own: usize) -> [DVec3; 3] {
+        let angles = |kind: &ConstraintKind| matches!(kind, ConstraintKind::Orientation { .. });
+        let mut axes = [DVec3::ZERO; 3];
+        for _ in 0..MAX_NEWTON_STEPS {
+            let rows = self.rows(joint, own, angles);
+            for (axis, block) in axes.iter_mut().zip(&rows.blocks[..rows.count]) {
+                *axis = angular(block);
+            }
+            if !self.newton(own, &rows) {
+                break;
+            }
+        }
+        axes
+    }
+
+    /// One Newton step on a body; false if all rows are closed.
+    fn newton(&mut self, own: usize, rows: &BodyRows) -> bool {
+        if rows.open() <= CLOSED {
+            return false;
+        }
+        let delta = rows.least(1.0 / self.bodies[own].properties.mass, &self.inertia(own).inverse());
+        let (displacement, turn) = (linear(&delta), angular(&delta));
+        let shorter = (MAX_ROTATION / turn.length()).min(1.0);
+        self.displace(own, shorter * displacement, shorter * turn);
+        true
+    }
+
+    /// Fully active constraints of a joint, each with the index of its first row.
+    fn acting<'j>(&self, joint: &'j Joint) -> impl Iterator<Item = (usize, usize)> + use<'j, '_> {
+        let system = self.system;
+        let mut at = joint.at;
+        joint.constraints.iter().filter_map(move |&index| {
+            let activation = system.activity.activation(index);
+            let first = at;
+            at += if activation > 0.0 { system.constraints()[index].row_count() } else { 0 };
+            (activation == 1.0).then_some((index, first))
+        })
+    }
+
+    /// Fully active rows of a joint, of the wanted kinds, with their blocks on one body.
+    fn rows(&self, joint: &Joint, own: usize, wanted: impl Fn(&ConstraintKind) -> bool) -> BodyRows {
+        let (system, scene) = (self.system, self.scene());
+        let mut rows = BodyRows::none();
+        for (index, mut at) in self.acting(joint) {
+            let constraint = &system.constraints()[index];
+            if !wanted(&constraint.kind) {
+                continue;
+            }
+            let first = constraint.link().is_some_and(|(a, _)| a == Some(own));
+            let mut push = |row: &JacobianRow| {
+                rows.push(if first { &row.a } else { &row.b }, row.value - self.targets[at]);
+                at += 1;
+            };
+            match &constraint.kind {
+                ConstraintKind::PointToPoint { a, b } => point::rows(&scene, a, b).iter().for_each(push),
+                ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
+                    push(&plane::row(&scene, point, plane, *normal, offset));
+                }
+                ConstraintKind::Orientation { a, b, angle } => {
+                    let fixed_axes = || {
+                        let others = self.acting(joint).filter(|&(other, _)| other != index);
+                        let axis = |(other, _): (usize, usize)| match &system.constraints()[other].kind {
+                            ConstraintKind::Orientation { a, b, .. } => orientation::axis(&scene, a, b),
+                            _ => None,
+                        };
+                        others.filter_map(axis).next()
+                    };
+                    push(&orientation::row(&scene, a, b, angle, fixed_axes));
+                }
+                ConstraintKind::Coupling { .. } => {}
+            }
+        }
+        rows
+    }
+
+    /// Arm and displacement of the joint's first point or plane, for one of its bodies.
+    pub fn first_pull(&self, joint: &Joint, own: usize) -> Option<(DVec3, DVec3)> {
+        let (system, scene) = (self.system, self.scene());
+        let center = self.bodies[own].position;
+        let pull = |(index, at): (usize, usize)| match &system.constraints()[index].kind {
+            ConstraintKind::PointToPoint { a, b } => {
+                // C = a − b.
+                let kept = DVec3::new(self.targets[at], self.targets[at + 1], self.targets[at + 2]);
+                let (mine, other, kept): (&Anchor, &Anchor, DVec3) =
+                    if a.body == Some(own) { (a, b, kept) } else { (b, a, -kept) };
+                let at = scene.point(mine).position;
+                Some((at - center, scene.point(other).position - at + kept))
+            }
+            ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
+                let row = plane::row(&scene, point, plane, *normal, offset);
+                // The plane's body is pulled where the point is.
+                let sign = if point.body == Some(own) { -1.0 } else { 1.0 };
+                let displacement = sign * (row.value - self.targets[at]);
+                Some((scene.point(point).position - center, displacement * linear(&row.a)))
+            }
+            _ => None,
+        };
+        self.acting(joint).find_map(pull)
+    }
+
+    /// Moves the bodies of one row by the displacement of least kinetic energy that changes its value by `change`.
+    pub fn spread(&mut self, ends: impl Iterator<Item = (usize, Vec6)> + Clone, change: f64) {
+        let system = self.system;
+        let free = ends.filter(|(body, _)| !system.kinematic()[*body]);
+        let pushed = |configuration: &Self, body: usize, block: &Vec6| {
+            let inverse = configuration.inertia(body).inverse();
+            (linear(block) / configuration.bodies[body].properties.mass, inverse * angular(block))
+        };
+        let effective_inverse_mass: f64 = free
+            .clone()
+            .map(|(body, block)| {
+                let (displacement, turn) = pushed(self, body, &block);
+                displacement.dot(linear(&block)) + turn.dot(angular(&block))
+            })
+            .sum();
+        if effective_inverse_mass <= 0.0 {
+            return;
+        }
+        let lambda = change / effective_inverse_mass;
+        for (body, block) in free {
+            let (displacement, turn) = pushed(self, body, &block);
+            self.displace(body, lambda * displacement, lambda * turn);
+        }
+    }
+}
