@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::failure::{Failure, Outcome};
 use super::setup;
 use soffio_exhibit as exhibit;
-use soffio_math::{PI, from_decibels, sin};
+use soffio_math::{PI, db_to_amplitude, sin};
 use soffio_offline::loudness::{Levelled, Measured, correction, level, measure, write};
 use soffio_offline::wav;
 use soffio_simulation::SAMPLE_RATE;
@@ -107,7 +107,7 @@ fn tone(path: &Path) -> Outcome {
     let frames = seconds * SAMPLE_RATE;
     let sample = |n: u32| {
         let edge = (f64::from(n.min(frames - 1 - n)) / fade).min(1.0);
-        (edge * from_decibels(level) * sin(turn * f64::from(n))) as f32
+        (edge * db_to_amplitude(level) * sin(turn * f64::from(n))) as f32
     };
     let samples: Vec<f32> = (0..frames).flat_map(|n| [sample(n); 2]).collect();
     wav::write_float(path, 2, SAMPLE_RATE, &samples).map_err(Failure::input)

@@ -35,7 +35,7 @@ use soffio_fourier::Complex;
 use super::decision::MIN_RISE_DB;
 use super::features::blend;
 use super::spectrum::{BINS, FRAME_S, Power};
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 
 /// Bins of the difference, 16–406 Hz.
 const DIFFERENCE: std::ops::Range<usize> = 1..26;
@@ -170,7 +170,7 @@ impl DualMic {
 
     /// Upper bound of the echo in half the difference, from the `echo` in half the sum.
     pub fn residual_echo(&self, echo: &Power) -> Power {
-        let left = from_decibels(2.0 * ECHO_REJECTION_DB);
+        let left = db_to_amplitude(2.0 * ECHO_REJECTION_DB);
         std::array::from_fn(|k| if DIFFERENCE.contains(&k) { left * echo[k] } else { echo[k] })
     }
 
@@ -332,7 +332,7 @@ mod tests {
             for k in 1..BINS {
                 let wave = noise(&mut random);
                 let frame = if (600..625).contains(&i) {
-                    puff[k].map(|z| from_decibels(LOUDER) * z)
+                    puff[k].map(|z| db_to_amplitude(LOUDER) * z)
                 } else {
                     // Noise by which the middle band shows two capsules.
                     [wave, wave].map(|z| z + 0.3 * noise(&mut random))

@@ -207,7 +207,7 @@ mod tests {
     use super::super::features::RISEN_DB;
     use super::*;
     use crate::generate::filter::{high_passed, low_passed, normalised, white};
-    use soffio_math::from_decibels;
+    use soffio_math::db_to_amplitude;
     use soffio_math::noise::Random;
 
     const RATE: u32 = 8000;
@@ -217,7 +217,7 @@ mod tests {
     fn noise((from, to): (f64, f64), dbfs: f64, seconds: u32, random: &mut Random) -> Vec<f64> {
         let white = white((seconds * RATE) as usize, random);
         let band = normalised(high_passed(low_passed(white, RATE.into(), to, 3), RATE.into(), from, 3));
-        band.into_iter().map(|x| from_decibels(dbfs) * x).collect()
+        band.into_iter().map(|x| db_to_amplitude(dbfs) * x).collect()
     }
 
     #[test]
@@ -231,7 +231,7 @@ mod tests {
         let mut capsule = || {
             let (high, own) = (noise((1000.0, 3000.0), -60.0, SECONDS, &mut random), white(ambient.len(), &mut random));
             let wind = noise((40.0, 150.0), WIND_DBFS, SECONDS, &mut random);
-            let own = own.iter().zip(&high).map(|(own, high)| from_decibels(-105.0) * own + high);
+            let own = own.iter().zip(&high).map(|(own, high)| db_to_amplitude(-105.0) * own + high);
             let blown = |(i, wind): (usize, &f64)| if i as f64 >= BEGINS_S * f64::from(RATE) { *wind } else { 0.0 };
             let wind = wind.iter().enumerate().map(blown);
             let sum = ambient.iter().zip(own).zip(wind).map(|((ambient, own), wind)| (ambient + own + wind) as f32);

@@ -203,7 +203,7 @@ mod tests {
     use super::*;
     use crate::generate::filter::{high_passed, low_passed, normalised, white};
     use soffio_math::noise::Random;
-    use soffio_math::{PI, from_decibels, sin};
+    use soffio_math::{PI, db_to_amplitude, sin};
 
     const RATE: u32 = 16_000;
     const SEED: u64 = 29;
@@ -213,7 +213,7 @@ mod tests {
         let rate = f64::from(RATE);
         let band =
             high_passed(low_passed(white((seconds * RATE) as usize, random), rate, to, poles), rate, from, poles);
-        normalised(band).into_iter().map(|x| from_decibels(dbfs) * x).collect()
+        normalised(band).into_iter().map(|x| db_to_amplitude(dbfs) * x).collect()
     }
 
     /// Time, s, high band, and rise of the middle band, dB, of each frame. The noise floor is frozen from a time on, s.

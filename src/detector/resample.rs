@@ -19,7 +19,7 @@
 //! φ is kept as an integer numerator over F, so the output instants never drift.
 //! Invariant: outputs depend on the samples alone, never on how they were cut into blocks.
 
-use soffio_math::{PI, cos, from_decibels, sin};
+use soffio_math::{PI, cos, db_to_amplitude, sin};
 
 /// The internal rate, Hz.
 pub const INTERNAL_RATE: u32 = 8000;
@@ -62,7 +62,7 @@ impl Resampler {
 
     /// A resampler for the high band, 4.4 to 7 kHz: in reverse at 1 to 3.6 kHz, 20 dB louder; silent below a rate of 16 kHz.
     pub fn high_band(rate: u32) -> Self {
-        let gain = if rate < HIGH_BAND_MIN_RATE { 0.0 } else { 2.0 * from_decibels(HIGH_BAND_GAIN_DB) };
+        let gain = if rate < HIGH_BAND_MIN_RATE { 0.0 } else { 2.0 * db_to_amplitude(HIGH_BAND_GAIN_DB) };
         Self::with_kernel(rate, HIGH_BAND_CUTOFF_HZ, |seconds| gain * cos(2.0 * PI * HIGH_BAND_CENTRE_HZ * seconds))
     }
 
@@ -124,7 +124,7 @@ impl Resampler {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use soffio_math::{decibels, sin};
+    use soffio_math::{amplitude_to_db, sin};
 
     /// Gain, dB, and output frequency, Hz, of a tone, measured over a second.
     fn response(mut resampler: Resampler, rate: u32, hz: f64) -> (f64, f64) {
@@ -133,7 +133,7 @@ mod tests {
             (0..2 * rate).filter_map(|i| resampler.push(tone(i))).skip(INTERNAL_RATE as usize).collect();
         let square = out.iter().map(|x| x * x).sum::<f64>() / out.len() as f64;
         let crossings = out.windows(2).filter(|pair| pair[0] * pair[1] < 0.0).count();
-        (decibels((2.0 * square).sqrt()), 0.5 * crossings as f64)
+        (amplitude_to_db((2.0 * square).sqrt()), 0.5 * crossings as f64)
     }
 
     #[test]

@@ -13,7 +13,7 @@
 //! |---|---|
 //! | [`Pose`] | a rigid placement: rotation and position, m |
 //! | [`rotation`], [`rotation_vector`], [`tangents`] | helpers for rotations and frames |
-//! | [`decibels`], [`from_decibels`] | amplitude ratios in dB and back |
+//! | [`amplitude_to_db`], [`db_to_amplitude`] | amplitude ratios in dB and back |
 //! | [`StateHash`] | one word that tells two states apart, bit for bit |
 //! | [`function`] | constants, key frames and harmonics over time, with derivatives |
 //! | [`spatial`] | six-component velocities, forces and inertias (Featherstone's algebra) |
@@ -31,7 +31,7 @@
 //!
 //! // The same seed gives the same numbers on any machine.
 //! assert_eq!(Random::new(7).unit(), Random::new(7).unit());
-//! assert!((soffio_math::decibels(10.0) - 20.0).abs() < 1e-12);
+//! assert!((soffio_math::amplitude_to_db(10.0) - 20.0).abs() < 1e-12);
 //! ```
 
 pub mod function;
@@ -195,13 +195,13 @@ pub fn tangents(n: DVec3) -> (DVec3, DVec3) {
 
 /// Decibels of an amplitude ratio; silence is −∞.
 #[inline]
-pub fn decibels(amplitude: f64) -> f64 {
+pub fn amplitude_to_db(amplitude: f64) -> f64 {
     20.0 * log10(amplitude)
 }
 
 /// Amplitude ratio of decibels.
 #[inline]
-pub fn from_decibels(db: f64) -> f64 {
+pub fn db_to_amplitude(db: f64) -> f64 {
     pow(10.0, db / 20.0)
 }
 

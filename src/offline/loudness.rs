@@ -11,7 +11,7 @@ use ebur128::{EbuR128, Mode};
 
 use super::atomic_file::AtomicFile;
 use soffio_exhibit::{Exhibit, SIDECAR};
-use soffio_math::{decibels, from_decibels};
+use soffio_math::{amplitude_to_db, db_to_amplitude};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
 use soffio_sound::{PROGRAMME, ReverbSpec, SoundCommand, Synth};
 
@@ -62,7 +62,7 @@ pub fn measure(samples: &[f32], channels: u32, sample_rate: u32) -> Result<Measu
     Ok(Measured {
         lufs: finite(meter.loudness_global().map_err(says)?),
         short_term_lufs: finite(short_term),
-        true_peak_dbtp: finite(decibels(peak)),
+        true_peak_dbtp: finite(amplitude_to_db(peak)),
     })
 }
 
@@ -95,7 +95,7 @@ pub fn level(exhibit: &Arc<Exhibit>, settings: Settings, reverb: Option<&ReverbS
     let sounds = scene(exhibit, settings)?;
     let hear = |raised: f64| {
         let mut instruments = exhibit.instruments.clone();
-        instruments.iter_mut().for_each(|instrument| instrument.gain *= from_decibels(raised));
+        instruments.iter_mut().for_each(|instrument| instrument.gain *= db_to_amplitude(raised));
         let mut synth = Synth::new(SAMPLE_RATE, &instruments, settings.seed).map_err(|e| e.to_string())?;
         synth.set_reverb(reverb);
         let mut out = vec![0.0; 2 * SAMPLES_PER_STEP as usize * sounds.len()];

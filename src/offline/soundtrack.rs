@@ -8,7 +8,7 @@ use hound::{SampleFormat, WavSpec, WavWriter};
 
 use super::atomic_file::AtomicFile;
 use soffio_exhibit::Exhibit;
-use soffio_math::decibels;
+use soffio_math::amplitude_to_db;
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 use soffio_sound::{LoudnessMeter, MAX_COMMANDS, ReverbSpec, SoundCommand, Synth, peak};
 
@@ -111,7 +111,7 @@ impl Soundtrack {
         let held = self.synth.latency() * usize::from(CHANNELS) - self.early;
         self.keep(held)?;
         self.file.map_or(Ok(()), AtomicWav::finish)?;
-        Ok(Levels { peak_dbfs: decibels(f64::from(self.peak)), lufs: self.loudness.loudness() })
+        Ok(Levels { peak_dbfs: amplitude_to_db(f64::from(self.peak)), lufs: self.loudness.loudness() })
     }
 }
 

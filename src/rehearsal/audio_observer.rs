@@ -18,7 +18,7 @@ use std::sync::Arc;
 use soffio_fourier::{RealToComplex, real_forward};
 
 use super::blocks::SAMPLE_RATE_HZ;
-use soffio_math::{PI, cos, from_decibels};
+use soffio_math::{PI, cos, db_to_amplitude};
 
 /// Length of a frame, samples.
 const FRAME: usize = 2048;
@@ -68,7 +68,7 @@ impl AudioObserver {
             self.pending.push(0.5 * (f64::from(*left) - f64::from(*l) + f64::from(*right) - f64::from(*r)));
             self.sample += 1;
             if self.pending.len() == FRAME {
-                let loud = from_decibels(WIND_DBFS);
+                let loud = db_to_amplitude(WIND_DBFS);
                 self.frames = self.frames << 1 | u32::from(self.noise() > loud * loud);
                 self.pending.drain(..HOP);
                 let last = self.frames & ((1 << LASTS) - 1);

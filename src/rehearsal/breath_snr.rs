@@ -12,7 +12,7 @@ use serde::Serialize;
 use soffio_fourier::{Complex, real_forward};
 
 use super::scorer::{FPS, SOON};
-use soffio_math::{PI, cos, decibels};
+use soffio_math::{PI, amplitude_to_db, cos};
 use soffio_soundscape::RATE;
 
 /// Band of the rumble, Hz.
@@ -87,7 +87,7 @@ fn band_snr_db(breath: &[f64], rest: &[f64], (low, high): (f64, f64)) -> f64 {
     let bin = |hz: f64| (hz * SAMPLES as f64 / f64::from(RATE)).round() as usize;
     let power =
         |samples: &[f64]| spectrum(samples)[bin(low)..bin(high)].iter().map(Complex::norm_sqr).sum::<f64>() + EPSILON;
-    0.5 * decibels(power(breath) / power(rest))
+    0.5 * amplitude_to_db(power(breath) / power(rest))
 }
 
 fn spectrum(samples: &[f64]) -> Vec<Complex<f64>> {

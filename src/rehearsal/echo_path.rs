@@ -12,7 +12,7 @@ use soffio_fourier::{Complex, ComplexToReal, RealToComplex, real_forward, real_i
 use super::blocks::BLOCK;
 use super::rate::Decimator;
 use soffio_math::noise::Random;
-use soffio_math::{DVec3, PI, exp, from_decibels, tanh};
+use soffio_math::{DVec3, PI, db_to_amplitude, exp, tanh};
 use soffio_soundscape::RATE;
 use soffio_soundscape::rooms::Room;
 
@@ -58,7 +58,7 @@ impl EchoPath {
     pub fn new(room: &Room, capsules: usize, random: &mut Random) -> Self {
         let (at, seed) = (room.near(AWAY_M, random), random.word());
         let (forward, back) = (real_forward(2 * BLOCK), real_inverse(2 * BLOCK));
-        let gain = from_decibels(COUPLING_DB) / (2 * BLOCK) as f64;
+        let gain = db_to_amplitude(COUPLING_DB) / (2 * BLOCK) as f64;
         let part = |part: &[f64]| {
             let mut padded = vec![0.0; 2 * BLOCK];
             padded.iter_mut().zip(part).for_each(|(y, h)| *y = gain * h);

@@ -16,7 +16,7 @@ use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::instruments::SynthSetup;
 use soffio_kiosk::step::stage::Stage;
 use soffio_kiosk::venue::site::Site;
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_sound::{SoundCommand, Volume, WindSound};
 
 /// An audio output: its callback, and everything that feeds it.
@@ -65,7 +65,7 @@ impl KioskUnderTest {
     pub fn new(exhibit: Arc<Exhibit>, site: &Site, capsules: usize) -> Self {
         let mut volume = Volume::new(site.volume);
         volume.step(i32::MAX);
-        let [output, still_air] = [(); 2].map(|()| AudioOutput::new(from_decibels(volume.db()) as f32));
+        let [output, still_air] = [(); 2].map(|()| AudioOutput::new(db_to_amplitude(volume.db()) as f32));
         let (recorder, microphone) = input::open(SAMPLE_RATE_HZ, capsules, [0, 0]);
         let voice = SynthSetup {
             reverb: site.reverb,
@@ -106,7 +106,7 @@ impl KioskUnderTest {
     /// Mutes, or unmutes, as the staff's key does.
     pub fn toggle_mute(&mut self) {
         self.volume.toggle_mute();
-        let volume = if self.volume.is_muted() { 0.0 } else { from_decibels(self.volume.db()) as f32 };
+        let volume = if self.volume.is_muted() { 0.0 } else { db_to_amplitude(self.volume.db()) as f32 };
         [&self.output, &self.still_air].iter().for_each(|output| output.knobs.set_volume(volume));
     }
 

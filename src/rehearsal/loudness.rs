@@ -1,14 +1,14 @@
 //! Sound levels at the microphone.
 
 use soffio_detector::generate::filter::power;
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 
 /// Sound pressure level of full scale, dB.
 const FULL_SCALE_DB: f64 = 117.0;
 
 /// Amplitude of a sound level at the microphone, dB of sound; full scale 1.
 pub fn loud(db: f64) -> f64 {
-    from_decibels(db - FULL_SCALE_DB)
+    db_to_amplitude(db - FULL_SCALE_DB)
 }
 
 /// Scales a sound to an RMS at the first capsule, and the other capsules alike.

@@ -20,7 +20,7 @@ use super::loudness::{loud, scaled};
 use super::rate::Interpolator;
 use soffio_detector::generate::filter::{parted, white};
 use soffio_math::noise::{Random, hash_words};
-use soffio_math::{PI, exp, from_decibels};
+use soffio_math::{PI, db_to_amplitude, exp};
 use soffio_offline::wav::Recording;
 use soffio_soundscape::rooms::ALIKE_HZ;
 use soffio_soundscape::scenes::{Scenario, UNLIKE, resampled};
@@ -113,7 +113,7 @@ impl Venue {
             0 => Capsule::new(corner, 1.0, random.word()),
             _ => {
                 let (louder, higher) = (random.range(-UNLIKE.0, UNLIKE.0), 1.0 + random.range(-UNLIKE.1, UNLIKE.1));
-                Capsule::new(higher * corner, from_decibels(louder), random.word())
+                Capsule::new(higher * corner, db_to_amplitude(louder), random.word())
             }
         };
         let capsules = (0..capsules).map(capsule).collect();
@@ -206,7 +206,7 @@ impl Venue {
             Crowd::Made => {
                 let level = CROWD_DB.0 + CROWD_DB.1 * occupancy + random.range(-MINUTE_DB, MINUTE_DB);
                 let crowd = scaled(self.scenario.crowd(PIECE_S + FADE_S, occupancy, count, &mut random), loud(level));
-                let level = from_decibels(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * occupancy).min(1.0));
+                let level = db_to_amplitude(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * occupancy).min(1.0));
                 let air = noises::air(PIECE_S + FADE_S, &mut random);
                 let both = diffuse(air, count).into_iter().zip(crowd);
                 both.map(|(air, crowd)| crowd.iter().zip(&air).map(|(y, x)| y + level * x).collect()).collect()
@@ -281,7 +281,7 @@ impl Capsule {
                 *low = y + keep * (*low - y);
                 y -= *low;
             }
-            gain * y + from_decibels(HISS_DBFS) * n
+            gain * y + db_to_amplitude(HISS_DBFS) * n
         });
         self.interpolator.convert(received).into_iter().map(|x| x.clamp(-1.0, 1.0) as f32).collect()
     }

@@ -9,7 +9,7 @@ use super::loudness::{loud, scaled};
 use soffio_detector::generate::filter::peaked;
 use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::{Random, hash_words};
-use soffio_math::{from_decibels, pow};
+use soffio_math::{db_to_amplitude, pow};
 use soffio_soundscape::scenes::{Lips, Scenario};
 use soffio_soundscape::{RATE, noises, voices};
 
@@ -355,7 +355,7 @@ impl Visit {
         }
         // A hand on the glass reaches the microphone through the table, not through the room.
         for pressed in self.presses.iter().filter(|pressed| pressed.press != Press::Key) {
-            let gain = from_decibels(random.range(-44.0, -22.0));
+            let gain = db_to_amplitude(random.range(-44.0, -22.0));
             let hand: Vec<f64> = peaked(noises::handling(random)).into_iter().map(|x| gain * x).collect();
             out.push((pressed.from, vec![hand; capsules]));
         }

@@ -11,7 +11,7 @@
 //!
 //! It is an estimate: the speaker's own colour and the room are in S alone.
 
-use soffio_math::{PI, decibels, sincos, sqrt};
+use soffio_math::{PI, amplitude_to_db, sincos, sqrt};
 
 /// Poles of high-passes, Hz.
 const HIGH_PASSES: [f64; 4] = [20.598_997, 20.598_997, 107.652_65, 737.862_23];
@@ -87,7 +87,7 @@ impl AWeighting {
 
 /// Level of a mean power of [`AWeighting::power`], dB of a full-scale sine.
 pub fn weighted_level(power: f64) -> f64 {
-    0.5 * decibels(power / 0.5)
+    0.5 * amplitude_to_db(power / 0.5)
 }
 
 /// What a visitor and a guard are exposed to: the mean of the last minute and of the day.

@@ -14,7 +14,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x2, f64x4};
 
-use soffio_math::decibels;
+use soffio_math::amplitude_to_db;
 
 /// b₀, b₁, b₂, a₁, a₂ of the two filters, at [`LoudnessMeter::SAMPLE_RATE`].
 const HEAD: [f64; 5] =
@@ -220,5 +220,5 @@ impl Default for LoudnessMeter {
 
 /// Of a mean square, LUFS.
 fn loudness(square: f64) -> f64 {
-    FULL + 0.5 * decibels(square)
+    FULL + 0.5 * amplitude_to_db(square)
 }

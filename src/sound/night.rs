@@ -11,7 +11,7 @@
 //!
 //! Gains are found once in [`STRIDE`] frames of the signal itself and run straight between, so that blocks do not matter.
 
-use soffio_math::{PI, decibels, exp, from_decibels, sincos};
+use soffio_math::{PI, amplitude_to_db, db_to_amplitude, exp, sincos};
 
 /// Level of soft sounds, dB.
 pub const LEVEL: f64 = -8.0;
@@ -48,7 +48,7 @@ pub(super) struct Night {
 
 impl Night {
     pub fn new(sample_rate: f64) -> Self {
-        let rise = from_decibels(SOFTER);
+        let rise = db_to_amplitude(SOFTER);
         let (s, c) = sincos(PI * CORNER / sample_rate);
         // As in `room/absorption.rs`, of first order: (h s + √h w)/(s + √h w).
         let w = s / c * rise.sqrt();
@@ -73,7 +73,7 @@ impl Night {
         self.wanted = night;
         if at_once {
             self.amount = f64::from(u8::from(night));
-            self.gain = from_decibels(self.amount * LEVEL);
+            self.gain = db_to_amplitude(self.amount * LEVEL);
         }
     }
 
@@ -96,8 +96,8 @@ impl Night {
         if self.frame == 0 {
             let step = if self.wanted { self.glide } else { -self.glide };
             self.amount = (self.amount + step).clamp(0.0, 1.0);
-            let above = (0.5 * decibels(self.square.max(1e-20)) - THRESHOLD).max(0.0);
-            let wanted = from_decibels(self.amount * (LEVEL - (1.0 - 1.0 / RATIO) * above));
+            let above = (0.5 * amplitude_to_db(self.square.max(1e-20)) - THRESHOLD).max(0.0);
+            let wanted = db_to_amplitude(self.amount * (LEVEL - (1.0 - 1.0 / RATIO) * above));
             self.step = (wanted - self.gain) / f64::from(STRIDE);
         }
         self.frame = (self.frame + 1) % STRIDE;

@@ -117,7 +117,7 @@ impl Take {
 
     /// The same take with another gain, dB, clipped at full scale.
     pub fn with_gain(&self, db: f64) -> Self {
-        let gain = soffio_math::from_decibels(db) as f32;
+        let gain = soffio_math::db_to_amplitude(db) as f32;
         let scaled = |samples: &Vec<f32>| samples.iter().map(|x| (x * gain).clamp(-1.0, 1.0)).collect();
         Self { left: scaled(&self.left), right: self.right.as_ref().map(scaled), ..self.clone() }
     }

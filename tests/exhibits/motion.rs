@@ -1,7 +1,7 @@
 //! The kinds of motion of an exhibit, and the change from one to another: no jump, no click, no fault, no memory.
 
 use assert_no_alloc::assert_no_alloc;
-use soffio_math::decibels;
+use soffio_math::amplitude_to_db;
 use soffio_simulation::{Command, MotionMode, SAMPLE_RATE, SAMPLES_PER_STEP, Settings, Simulation, StepInput};
 use soffio_sound::{SoundCommand, Synth};
 
@@ -105,10 +105,10 @@ pub fn a_change_of_motion_is_not_heard_as_a_click(id: &str) {
         let after = roughest(&sound[at - 1..at + AFTER].concat());
         let before = roughest(&sound[at - BEFORE..at - 1].concat());
         let what = format!("{id}, step {at}, to {:?}", MODES[at / PERIOD % 3]);
-        let loud = format!("{:.1} dB after {:.1} dB", decibels(after), decibels(before));
-        assert!(after < ROUGHER * before || decibels(after) < CLICK_DB, "{what}: {loud}");
+        let loud = format!("{:.1} dB after {:.1} dB", amplitude_to_db(after), amplitude_to_db(before));
+        assert!(after < ROUGHER * before || amplitude_to_db(after) < CLICK_DB, "{what}: {loud}");
         worst = worst.max(after / before.max(1e-9));
-        changes += usize::from(decibels(before) > CLICK_DB);
+        changes += usize::from(amplitude_to_db(before) > CLICK_DB);
     }
     note!("{id}: {changes} changes while it sounds, {worst:.2} as rough at most");
     HEARD_CHANGES.add(changes);

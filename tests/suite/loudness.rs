@@ -6,7 +6,7 @@ use ebur128::{EbuR128, Mode};
 use fearless_simd::Level;
 use soffio_config::{Config, Hours, TimeOfDay};
 use soffio_math::noise::Random;
-use soffio_math::{PI, StateHash, decibels, from_decibels, sin};
+use soffio_math::{PI, StateHash, amplitude_to_db, db_to_amplitude, sin};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
     AWeighting, CEILING, Exposure, InstrumentSpec, LoudnessMeter, PROGRAMME, Preset, ReverbSpec, SUDDEN, SoundBody,
@@ -68,7 +68,7 @@ fn no_true_peak_passes_minus_one_decibel() {
             synth.command(strike(i * 4_801, 0.05));
         }
         let out = render(&mut synth, RATE as usize);
-        let (samples, wave) = (decibels(peak(&out)), decibels(true_peak(&out)));
+        let (samples, wave) = (amplitude_to_db(peak(&out)), amplitude_to_db(true_peak(&out)));
         println!("{frequency} Hz: samples {samples:.2} dBFS, wave {wave:.2} dBTP");
         assert!(wave <= -1.0 && wave > -2.5, "{frequency} Hz: {wave} dBTP");
     }
@@ -79,7 +79,7 @@ fn no_true_peak_passes_minus_one_decibel() {
         synth.command(strike(random.range(0.0, 96_000.0) as u64, random.range(0.001, 0.3) as f32));
     }
     let out = render(&mut synth, 2 * RATE as usize);
-    assert!(true_peak(&out) <= CEILING, "{} dBTP", decibels(true_peak(&out)));
+    assert!(true_peak(&out) <= CEILING, "{} dBTP", amplitude_to_db(true_peak(&out)));
 }
 
 #[test]
@@ -92,13 +92,13 @@ fn nothing_breaks_a_silence_at_full_loudness() {
     synth.command(strike(14_400, 0.02));
     let out = render(&mut synth, 2 * RATE as usize);
     let onset = out.iter().position(|s| s.abs() > 1e-3).expect("a bang") / 2;
-    let loudest = |ms: usize| decibels(peak(&out[2 * (onset + 48 * ms)..2 * (onset + 48 * (ms + 1))]));
+    let loudest = |ms: usize| amplitude_to_db(peak(&out[2 * (onset + 48 * ms)..2 * (onset + 48 * (ms + 1))]));
     for ms in 0..200 {
-        let most = (decibels(SUDDEN) + RATE_DB * (ms as f64 + 3.0) / 1000.0).min(-1.0) + SLACK_DB;
+        let most = (amplitude_to_db(SUDDEN) + RATE_DB * (ms as f64 + 3.0) / 1000.0).min(-1.0) + SLACK_DB;
         assert!(loudest(ms) < most, "{ms} ms after the onset: {} dB, at most {most}", loudest(ms));
     }
     let (at_once, later) =
-        (decibels(peak(&out[2 * onset..2 * (onset + 576)])), decibels(peak(&out[2 * (onset + 7200)..])));
+        (amplitude_to_db(peak(&out[2 * onset..2 * (onset + 576)])), amplitude_to_db(peak(&out[2 * (onset + 7200)..])));
     println!("a bang: {at_once:.1} dBFS in its first 12 ms, {later:.1} dBFS later");
     assert!(later > -2.5, "it gets there in the end: {later}");
     // What is not loud comes as it is.
@@ -122,7 +122,7 @@ fn the_night_is_lower_closer_together_and_softer_at_the_top() {
         synth.command(strike(0, impulse));
         let out = render(&mut synth, RATE as usize);
         let tail = &out[RATE as usize..];
-        0.5 * decibels(tail.iter().map(|s| f64::from(s * s)).sum::<f64>() / tail.len() as f64)
+        0.5 * amplitude_to_db(tail.iter().map(|s| f64::from(s * s)).sum::<f64>() / tail.len() as f64)
     };
     let change = |frequency: f64, impulse: f32| level(frequency, impulse, true) - level(frequency, impulse, false);
     // Soft and low: the level alone, −8 dB, and a little of the shelf's foot.
@@ -131,7 +131,7 @@ fn the_night_is_lower_closer_together_and_softer_at_the_top() {
     // Three times as much by day is a third of the step, in dB, above the threshold by night.
     let by_day = level(300.0, 1.5e-4, false) - level(300.0, 5e-5, false);
     let by_night = level(300.0, 1.5e-4, true) - level(300.0, 5e-5, true);
-    assert!((by_day - decibels(3.0)).abs() < 0.1, "by day nothing is compressed: {by_day} dB");
+    assert!((by_day - amplitude_to_db(3.0)).abs() < 0.1, "by day nothing is compressed: {by_day} dB");
     println!("night: soft {soft:.2} dB; three times as much is {by_day:.2} dB by day and {by_night:.2} dB by night");
     assert!((by_night / by_day - 1.0 / 3.0).abs() < 0.05, "{by_day} dB by day, {by_night} dB by night");
     // The shelf, −9 dB, as far as 10 kHz lies above its corner of 2.5 kHz.
@@ -150,10 +150,10 @@ fn day_becomes_night_and_day_again_without_a_step() {
     out.extend(render(&mut synth, 4 * RATE as usize));
     // Loudest of each 10 ms: neighbours differ by the glide of some 10 dB in 2 s and the decay, never by a step.
     let peaks: Vec<f64> = out[4_800..].chunks(960).map(peak).collect();
-    let step = peaks.windows(2).map(|w| decibels(w[1] / w[0]).abs()).fold(0.0, f64::max);
+    let step = peaks.windows(2).map(|w| amplitude_to_db(w[1] / w[0]).abs()).fold(0.0, f64::max);
     assert!(step < 0.3, "a step of {step} dB");
     let (day, night) = (peaks[50], peaks[450]);
-    assert!(decibels(night / day) < -8.0, "{} dB", decibels(night / day));
+    assert!(amplitude_to_db(night / day) < -8.0, "{} dB", amplitude_to_db(night / day));
 }
 
 #[test]
@@ -166,7 +166,7 @@ fn a_tick_eases_down_with_repetition() {
         }
         loudest.push(peak(&render(&mut synth, RATE as usize)));
     }
-    let eased = decibels(loudest[299] / loudest[0]);
+    let eased = amplitude_to_db(loudest[299] / loudest[0]);
     println!("ticks of half a second after 5 minutes: {eased:.1} dB");
     assert_eq!(loudest[20], loudest[0], "the first ones are as they are");
     // After 5 minutes the count is 240 (1 − e^(−2.5)) = 220: −5.6 dB.
@@ -224,7 +224,7 @@ fn a_room_adds_its_tail_and_keeps_the_sound_itself() {
     // The first line is 21 ms long: until then there is no room.
     assert_eq!(with[..2 * 1_000], without[..2 * 1_000]);
     let late = 2 * 24_000;
-    assert!(decibels(peak(&with[late..]) / peak(&without[..late])) > -60.0, "no tail");
+    assert!(amplitude_to_db(peak(&with[late..]) / peak(&without[..late])) > -60.0, "no tail");
     assert!(peak(&without[late..]) == 0.0, "the body alone is over by then");
 }
 
@@ -246,7 +246,7 @@ fn the_a_weighting_is_the_standards() {
     for rate in [44_100.0, 48_000.0, 96_000.0] {
         for (frequency, wanted, above, below) in table {
             let mut weighting = AWeighting::new(rate);
-            let by_formula = decibels(weighting.size(frequency, rate));
+            let by_formula = amplitude_to_db(weighting.size(frequency, rate));
             let frames = rate as usize;
             let mut power = 0.0;
             for n in 0..2 * frames {
@@ -265,7 +265,7 @@ fn the_a_weighting_is_the_standards() {
 #[test]
 fn the_mean_of_a_day_is_a_mean_of_energies_and_ends_at_midnight() {
     let mut exposure = Exposure::default();
-    let power = |db: f64| 0.5 * from_decibels(2.0 * db);
+    let power = |db: f64| 0.5 * db_to_amplitude(2.0 * db);
     // An hour at −20 dB and three of silence: a quarter of the energy, −26.02 dB.
     for _ in 0..3600 {
         exposure.note(power(-20.0), 1.0, 7);
@@ -408,7 +408,7 @@ fn a_meter_of_ebu_r128_shows_what_the_standard_says_and_the_level_is_written_in_
     use soffio_offline::loudness::{correction, measure, write};
     // EBU Tech 3341, case 1: a sine of 1 kHz at −23 dBFS on both sides is −23.0 ± 0.1 LUFS.
     let sine: Vec<f32> = (0..20 * RATE)
-        .flat_map(|n| [(from_decibels(-23.0) * sin(2.0 * PI * 1000.0 * f64::from(n) / f64::from(RATE))) as f32; 2])
+        .flat_map(|n| [(db_to_amplitude(-23.0) * sin(2.0 * PI * 1000.0 * f64::from(n) / f64::from(RATE))) as f32; 2])
         .collect();
     let measured = measure(&sine, 2, RATE).expect("a meter");
     let near = |x: Option<f64>, wanted: f64| x.is_some_and(|x| (x - wanted).abs() < 0.1);

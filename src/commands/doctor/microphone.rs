@@ -3,7 +3,7 @@
 use super::finding::{Finding, Health};
 use soffio_config::remedies::{self, NORMAL_M_S};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
-use soffio_math::decibels;
+use soffio_math::amplitude_to_db;
 
 /// Judges a microphone by a second of sound without a breath.
 pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
@@ -20,7 +20,7 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     let peak = heard.iter().fold(0.0_f32, |peak, sample| peak.max(sample.abs()));
     let level = |part: &[f32]| {
         let power: f64 = part.iter().map(|&x| f64::from(x) * f64::from(x)).sum();
-        decibels((power / part.len().max(1) as f64).sqrt())
+        amplitude_to_db((power / part.len().max(1) as f64).sqrt())
     };
     let rms = level(heard);
     let tenths: Vec<f64> = heard.chunks((heard.len() / 9).max(1)).map(level).collect();
@@ -36,7 +36,7 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
         0.0 => "not a single sample differs from zero".to_owned(),
         _ => format!(
             "{rms:.1} dBFS, peak {:.1} dBFS, {railed} samples at full scale; floor of the band of breath {floor:.1} dBFS",
-            decibels(f64::from(peak))
+            amplitude_to_db(f64::from(peak))
         ),
     };
     if heard.len() < sample_rate as usize / 2 {

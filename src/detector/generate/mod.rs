@@ -27,7 +27,7 @@ pub mod filter;
 
 use filter::{gaussian, high_passed, low_passed, normalised, resonance};
 use soffio_math::noise::{Random, hash_words};
-use soffio_math::{DVec3, PI, atan2, cos, exp, from_decibels, pow, sin, tanh};
+use soffio_math::{DVec3, PI, atan2, cos, db_to_amplitude, exp, pow, sin, tanh};
 
 /// Speed of the hardest blow, m/s; `strength` is relative to it.
 pub const HARDEST_M_S: f64 = 17.0;
@@ -133,7 +133,7 @@ impl BreathShape {
 pub fn breath(sample_rate: u32, seed: u64, shape: &BreathShape) -> Vec<f32> {
     let ambient = gaussian(shape.samples(sample_rate), &mut Random::new(hash_words(&[seed, 5])));
     let ambient = normalised(low_passed(ambient, f64::from(sample_rate), 1500.0, 1));
-    let noise = from_decibels(shape.noise_dbfs);
+    let noise = db_to_amplitude(shape.noise_dbfs);
     let pressure = stream(sample_rate, seed, shape, 0);
     pressure.iter().zip(&ambient).map(|(x, n)| tanh(x + noise * n) as f32).collect()
 }
@@ -155,7 +155,7 @@ pub fn stream(sample_rate: u32, seed: u64, shape: &BreathShape, capsule: u64) ->
     let (distance, angle_deg) = shape.path_to(capsule);
     let distance_cm = 100.0 * distance;
     let beside = (angle_deg / JET_ANGLE_DEG) * (angle_deg / JET_ANGLE_DEG);
-    let near = exp(-beside) * from_decibels(-shape.foam_db) / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
+    let near = exp(-beside) * db_to_amplitude(-shape.foam_db) / (1.0 + (distance_cm / 14.0) * (distance_cm / 14.0));
     let far = 1.0 / (1.0 + distance_cm / 25.0);
     let air = (0..count).map(|i| {
         let speed = (force * shape.envelope(i as f64 / rate) * (1.0 + 0.22 * gust[i])).max(0.0);
@@ -277,7 +277,7 @@ fn length(sample_rate: u32, seconds: f64) -> usize {
 
 /// Scaled to a level in dB of full scale (RMS), cut at full scale.
 fn scaled(samples: Vec<f64>, dbfs: f64) -> Vec<f32> {
-    let gain = from_decibels(dbfs);
+    let gain = db_to_amplitude(dbfs);
     normalised(samples).into_iter().map(|x| (gain * x).clamp(-1.0, 1.0) as f32).collect()
 }
 

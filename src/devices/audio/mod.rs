@@ -41,7 +41,7 @@ pub use reference::ReferenceTap;
 pub use soffio_config::AudioSettings;
 use supervisor::{Link, Request, Supervisor};
 
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_sound::{SoundCommand, Synth};
 
 /// Builds the synth for the rate of a loudspeaker, Hz.
@@ -145,7 +145,7 @@ impl AudioIo {
         let (requests, inbox) = std::sync::mpsc::channel();
         let (outbox, links) = std::sync::mpsc::channel();
         let status = Arc::new(Mutex::new(AudioStatus::default()));
-        let knobs = Arc::new(Knobs::new(from_decibels(settings.volume_db) as f32));
+        let knobs = Arc::new(Knobs::new(db_to_amplitude(settings.volume_db) as f32));
         let supervisor =
             Supervisor::new((settings.clone(), listens), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
         let supervisor = std::thread::Builder::new().name("soffio-audio".into()).spawn(move || supervisor.run());

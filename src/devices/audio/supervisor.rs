@@ -18,7 +18,7 @@ use super::input::{self, Ears, Recorder};
 use super::output::{self, Engine, Player, Voice, Workshop};
 use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SoundDelay, SynthFactory};
 use soffio_config::remedies;
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 
 /// Between two looks at the devices.
@@ -368,7 +368,7 @@ impl Supervisor {
             self.tell(|status| status.hearing_loop = Some(DeviceState::Missing(reason)));
         }
         let Some((workshop, from_rate)) = self.workshop.as_mut().filter(|_| self.hearing_loop.due()) else { return };
-        let gain = from_decibels(self.settings.hearing_loop_db) as f32;
+        let gain = db_to_amplitude(self.settings.hearing_loop_db) as f32;
         let result = choose(Direction::Output, wanted, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format, .. } = chosen;
             let open = |config: StreamConfig| {

@@ -5,7 +5,7 @@ use super::super::sidecar::{self, Faces, Trigger};
 use super::super::{Body, ImpactFrame, SoundBinding, SoundTrigger, Wire, codes, fit};
 use super::context::Context;
 use soffio_geometry::{Extents, TriangleMesh};
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_multibody::collision::Collider;
 use soffio_sound::{InstrumentSpec, SoundBody, SoundMaterial, timbre};
 use soffio_wind::{Surface, SurfaceShape};
@@ -185,7 +185,7 @@ impl Context<'_> {
             material: sound_material,
             // Only sliding contacts read it.
             surface: (given.on == Trigger::Slide).then(|| self.surface_line(node)).flatten(),
-            gain: from_decibels(given.gain.0 + self.sidecar.scene.level.0),
+            gain: db_to_amplitude(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };
         let frame = ImpactFrame { longest: extents.axes.x_axis, middle: extents.axes.y_axis, center: extents.center };

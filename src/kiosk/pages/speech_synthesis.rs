@@ -14,7 +14,7 @@ use std::time::Duration;
 use soffio_fourier::{real_forward, real_inverse};
 
 use soffio_devices::audio::{LOUDEST, Words};
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 
 /// Loudness of speech, LUFS: 3 dB above the exhibits, which are attenuated by 12 dB meanwhile.
 const SPEECH_LUFS: f64 = -20.0;
@@ -209,7 +209,7 @@ fn normalize_loudness(samples: &mut [f32], sample_rate: u32) -> Result<(), Strin
     let loudness = meter.loudness_global().map_err(failed)?;
     let peak = samples.iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
     // Speech too short to be measured keeps its level.
-    let gain = if loudness.is_finite() { from_decibels(SPEECH_LUFS - loudness) as f32 } else { 1.0 };
+    let gain = if loudness.is_finite() { db_to_amplitude(SPEECH_LUFS - loudness) as f32 } else { 1.0 };
     let gain = gain.min(LOUDEST / peak.max(f32::MIN_POSITIVE));
     samples.iter_mut().for_each(|sample| *sample *= gain);
     Ok(())

@@ -8,7 +8,7 @@ use jiff::Zoned;
 
 use soffio_config::{Hours, TimeOfDay};
 use soffio_devices::audio::Knobs;
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_sound::{Exposure, Volume, VolumeSettings};
 
 /// Time between two updates.
@@ -159,7 +159,7 @@ impl Loudness {
         self.attracts = attracts;
         self.look(due, knobs);
         let silent = closed || self.volume.is_muted() || attracts && self.silent_attract;
-        knobs.set_volume(if silent { 0.0 } else { from_decibels(self.volume.db()) as f32 });
+        knobs.set_volume(if silent { 0.0 } else { db_to_amplitude(self.volume.db()) as f32 });
         knobs.set_night(self.night);
     }
 

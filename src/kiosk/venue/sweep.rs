@@ -13,7 +13,7 @@
 
 use soffio_fourier::{Complex, RealToComplex, real_forward, real_inverse};
 
-use soffio_math::{PI, cos, decibels, exp, ln, sin};
+use soffio_math::{PI, amplitude_to_db, cos, exp, ln, sin};
 use soffio_sound::BANDS;
 
 /// Length of the sweep, s.
@@ -100,7 +100,7 @@ pub fn measure_response(recorded: &[f32], rate: u32) -> SweepResponse {
 
 /// Level of a power, dB; finite for silence.
 fn power_to_db(power: f64) -> f64 {
-    0.5 * decibels(power.max(1e-24))
+    0.5 * amplitude_to_db(power.max(1e-24))
 }
 
 /// The impulse response between loudspeaker and microphone, circular.

@@ -2,7 +2,7 @@
 
 use soffio_fourier::real_forward;
 
-use soffio_math::{PI, cos, decibels, log10};
+use soffio_math::{PI, amplitude_to_db, cos, log10};
 
 /// Power spectra of the frames of a sound.
 pub struct Frames {
@@ -98,12 +98,12 @@ pub fn decays(frames: &Frames) -> Vec<(f64, f64)> {
 
 /// Peak level, dBFS.
 pub fn peak(sound: &[f32]) -> f64 {
-    decibels(f64::from(sound.iter().fold(0.0f32, |m, x| m.max(x.abs()))))
+    amplitude_to_db(f64::from(sound.iter().fold(0.0f32, |m, x| m.max(x.abs()))))
 }
 
 /// Level of the loudest 50 ms, root mean square, dBFS.
 pub fn loudest(sound: &[f32], rate: f64) -> f64 {
     let n = (0.05 * rate) as usize;
     let power = |part: &[f32]| part.iter().map(|x| f64::from(*x) * f64::from(*x)).sum::<f64>() / part.len() as f64;
-    decibels(sound.chunks(n).map(power).fold(0.0, f64::max).sqrt())
+    amplitude_to_db(sound.chunks(n).map(power).fold(0.0, f64::max).sqrt())
 }

@@ -247,8 +247,8 @@ impl<'a> TimbreSheet<'a> {
         chart.frame(canvas, "Decay", "Hz", "T60, s");
         let loudest = self.modes.iter().map(|m| m.amplitude.abs()).fold(1e-20, f64::max);
         for mode in &self.modes {
-            let size =
-                (1.0 + 0.25 * (soffio_math::decibels(mode.amplitude.abs() / loudest) + 40.0) / 10.0).clamp(0.3, 2.0);
+            let size = (1.0 + 0.25 * (soffio_math::amplitude_to_db(mode.amplitude.abs() / loudest) + 40.0) / 10.0)
+                .clamp(0.3, 2.0);
             canvas.disc(chart.point(mode.frequency, t60(mode)), 2.2 * size, FIRST, 0.75);
         }
         for &(hz, seconds) in &heard {

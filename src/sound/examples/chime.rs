@@ -3,7 +3,7 @@
 //! `cargo run -p soffio-sound --example chime`            prints only
 //! `cargo run -p soffio-sound --example chime out.wav`    also writes the sound, stereo, 48 kHz
 
-use soffio_math::{PI, decibels};
+use soffio_math::{PI, amplitude_to_db};
 use soffio_sound::{InstrumentSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth};
 
 const RATE: u32 = 48_000;
@@ -46,11 +46,11 @@ fn main() -> Result<(), hound::Error> {
     synth.render(&mut frames);
 
     let peak = frames.iter().fold(0.0, |most: f32, x| most.max(x.abs()));
-    println!("peak {:.1} dB of full scale", decibels(f64::from(peak)));
+    println!("peak {:.1} dB of full scale", amplitude_to_db(f64::from(peak)));
     let level = |second: f64| {
         let from = 2 * (second * f64::from(RATE)) as usize;
         let part = &frames[from..from + RATE as usize / 5]; // a tenth of a second of both channels
-        decibels((part.iter().map(|x| f64::from(*x) * f64::from(*x)).sum::<f64>() / part.len() as f64).sqrt())
+        amplitude_to_db((part.iter().map(|x| f64::from(*x) * f64::from(*x)).sum::<f64>() / part.len() as f64).sqrt())
     };
     for second in [0.1, 0.5, 1.0, 2.0, 3.0] {
         println!("after {second:.1} s: {:.1} dB of full scale (RMS)", level(second));

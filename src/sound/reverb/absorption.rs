@@ -25,7 +25,7 @@
 //! | h | `rise`, in dB | 1 |
 
 use super::lines::{BANDS, LINES};
-use soffio_math::{PI, decibels, from_decibels, sincos, sqrt};
+use soffio_math::{PI, amplitude_to_db, db_to_amplitude, sincos, sqrt};
 
 /// Shelves of a line: one between two octaves.
 pub(super) const SHELVES: usize = BANDS.len() - 1;
@@ -41,7 +41,7 @@ type Shelf = [f64; 5];
 
 /// 0 dB far below the corner (Hz), `rise` dB far above, half of it at the corner.
 fn shelf(corner: f64, rise: f64, sample_rate: f64) -> Shelf {
-    let a = from_decibels(0.5 * rise);
+    let a = db_to_amplitude(0.5 * rise);
     let (s, c) = sincos(PI * corner / sample_rate);
     let w = s / c;
     let (damping, square) = (sqrt(2.0 * a) * w, w * w);
@@ -64,7 +64,7 @@ fn shelf_level(shelf: &Shelf, frequency: f64, sample_rate: f64) -> f64 {
         re * re + im * im
     };
     let [b0, b1, b2, a1, a2] = *shelf;
-    0.5 * decibels(size(b0, b1, b2) / size(1.0, a1, a2))
+    0.5 * amplitude_to_db(size(b0, b1, b2) / size(1.0, a1, a2))
 }
 
 /// Filter of one line.
@@ -114,7 +114,7 @@ impl Absorption {
     /// The shelves as they filter, and the gain, linear.
     pub fn filters(&self, sample_rate: f64) -> (f64, [Shelf; SHELVES]) {
         let one = |i: usize| shelf(corner(i, sample_rate), self.rises[i], sample_rate);
-        (from_decibels(self.gain), std::array::from_fn(one))
+        (db_to_amplitude(self.gain), std::array::from_fn(one))
     }
 
     /// Level at a frequency, dB.
@@ -135,7 +135,7 @@ impl Absorption {
     pub fn decays(&self, sample_rate: f64) -> bool {
         // Twelve to the octave from 20 Hz to half the rate, and both ends.
         let mut frequency = 20.0;
-        let ratio = from_decibels(6.020_599_913_279_624 / 12.0);
+        let ratio = db_to_amplitude(6.020_599_913_279_624 / 12.0);
         let mut loudest = self.level(0.0, sample_rate).max(self.level(0.5 * sample_rate, sample_rate));
         while frequency < 0.5 * sample_rate {
             loudest = loudest.max(self.level(frequency, sample_rate));

@@ -37,7 +37,7 @@ use absorption::{Absorption, Absorptions};
 use lines::LINES;
 use network::{CHUNK, Delay, Network};
 
-use soffio_math::{decibels, from_decibels, pow, sqrt};
+use soffio_math::{amplitude_to_db, db_to_amplitude, pow, sqrt};
 
 /// Shortest and longest decay that a room may have, s.
 pub const T60_RANGE: std::ops::RangeInclusive<f64> = 0.2..=5.0;
@@ -127,7 +127,7 @@ impl Reverb {
             chunk: delays.fold(CHUNK, usize::min),
             diffusers,
             network: Network::new(&lengths, absorption),
-            level: (from_decibels(spec.level_db) / own_level(&lengths, spec.t60[MIDDLE], sample_rate)) as f32,
+            level: (db_to_amplitude(spec.level_db) / own_level(&lengths, spec.t60[MIDDLE], sample_rate)) as f32,
             quiet: usize::MAX,
             forgets: lengths.into_iter().fold(0, usize::max),
         })
@@ -212,10 +212,10 @@ fn own_level(lengths: &[usize; LINES], t60: f64, sample_rate: f64) -> f64 {
 
 /// Primes, evenly in their logarithms: no two lines have an echo in common.
 fn lengths(sample_rate: f64) -> [usize; LINES] {
-    let octaves = decibels(LENGTHS.1 / LENGTHS.0) / (LINES - 1) as f64;
+    let octaves = amplitude_to_db(LENGTHS.1 / LENGTHS.0) / (LINES - 1) as f64;
     let mut least = 0;
     std::array::from_fn(|i| {
-        let wanted = (LENGTHS.0 * sample_rate * from_decibels(octaves * i as f64)) as usize;
+        let wanted = (LENGTHS.0 * sample_rate * db_to_amplitude(octaves * i as f64)) as usize;
         least = prime(wanted.max(least + 1));
         least
     })

@@ -7,7 +7,7 @@ use soffio_detector::features::MIN_DIFFERENCE_FLOOR;
 use soffio_detector::generate::filter::{high_passed, low_passed, power};
 use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::{Random, hash_words};
-use soffio_math::{from_decibels, log10, pow};
+use soffio_math::{db_to_amplitude, log10, pow};
 
 /// Longest steady part of a breath, s: with attack and release it is shorter than the detector's time-out.
 const LONGEST_HOLD_S: f64 = 5.0;
@@ -76,7 +76,7 @@ impl Scenario {
         if let Some(snr) = snr {
             // The first breath sets the level of the noise.
             let [air, noise] = [&streams, &channels].map(|heard| loudness(&during(heard, &breaths[0])));
-            let gain = (air / noise.max(1e-12) / from_decibels(2.0 * snr)).sqrt();
+            let gain = (air / noise.max(1e-12) / db_to_amplitude(2.0 * snr)).sqrt();
             channels.iter_mut().flatten().for_each(|x| *x *= gain);
         }
         let heard = |b: &Breath| above_noise(&during(&streams, b), &during(&channels, b));

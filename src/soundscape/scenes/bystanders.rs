@@ -1,7 +1,7 @@
 //! Scenes without breath, and the noises around a breath: a museum, a crowd, knocks, and the sounds most like breath.
 
 use soffio_detector::generate::filter::{normalised, peaked};
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_math::noise::Random;
 
 use super::super::rooms::convolved;
@@ -14,12 +14,12 @@ impl Scenario {
     pub(super) fn museum_sounds(&self, seconds: f64, busy: f64, random: &mut Random) -> Dry {
         let mut dry = Dry::silent((seconds * R) as usize);
         let place = |random: &mut Random| (random.unit() * PLACES as f64) as usize;
-        let decibel = |random: &mut Random, low: f64, high: f64| from_decibels(random.range(low, high));
+        let decibel = |random: &mut Random, low: f64, high: f64| db_to_amplitude(random.range(low, high));
         if random.unit() < 0.6 * busy {
             let loud = random.range(-62.0, -24.0);
             for _ in 0..random.range(1.0, 14.0) as u32 {
                 let at = place(random);
-                let gain = from_decibels(loud + random.range(-8.0, 3.0));
+                let gain = db_to_amplitude(loud + random.range(-8.0, 3.0));
                 dry.put("talk", at, 0.0, &self.speech(seconds, random), gain);
             }
         }
@@ -97,7 +97,7 @@ impl Scenario {
         }
         if random.unit() < 0.7 {
             for _ in 0..random.range(5.0, 25.0) as u32 {
-                let (at, gain) = (place(random), from_decibels(random.range(-8.0, 3.0)));
+                let (at, gain) = (place(random), db_to_amplitude(random.range(-8.0, 3.0)));
                 dry.put("throng", at, 0.0, &self.speech(seconds, random), gain * 0.03);
             }
         }
@@ -107,7 +107,7 @@ impl Scenario {
             2 => ("machine", noises::machine(seconds, random)),
             _ => ("air", noises::air(seconds, random)),
         };
-        let (at, gain) = (place(random), from_decibels(random.range(-45.0, -15.0)));
+        let (at, gain) = (place(random), db_to_amplitude(random.range(-45.0, -15.0)));
         dry.put(what, at, 0.0, &even, gain);
         dry
     }
@@ -119,12 +119,17 @@ impl Scenario {
         let from = (until - random.range(0.8, 6.0)).max(0.0);
         let loud = random.range(-45.0, -8.0);
         let words = self.speech(until - from, random);
-        dry.put("talk at the kiosk", PLACES - 1, from, &words, from_decibels(loud));
+        dry.put("talk at the kiosk", PLACES - 1, from, &words, db_to_amplitude(loud));
         if random.unit() < 0.3 {
-            dry.put_puffs(from, &voices::plosives(until - from, random), from_decibels(loud + random.range(0.0, 6.0)));
+            dry.put_puffs(
+                from,
+                &voices::plosives(until - from, random),
+                db_to_amplitude(loud + random.range(0.0, 6.0)),
+            );
         }
         if random.unit() < 0.3 {
-            let (at, gain) = ((random.unit() * PLACES as f64) as usize, from_decibels(loud - random.range(6.0, 30.0)));
+            let (at, gain) =
+                ((random.unit() * PLACES as f64) as usize, db_to_amplitude(loud - random.range(6.0, 30.0)));
             dry.put("a companion's talk", at, 0.0, &self.speech(seconds, random), gain);
         }
         dry
@@ -136,11 +141,11 @@ impl Scenario {
         let mut dry = self.museum_sounds(seconds, busy, random);
         let loud = random.range(-62.0, -30.0);
         for _ in 0..random.range(2.0, 5.0) as u32 {
-            let gain = from_decibels(loud + random.range(-9.0, 9.0));
+            let gain = db_to_amplitude(loud + random.range(-9.0, 9.0));
             dry.put("a companion's talk", PLACES - 1, 0.0, &self.speech(seconds, random), gain);
         }
         let laughter = normalised(voices::laughter(&self.voice(random), random));
-        let gain = from_decibels(loud + random.range(0.0, 15.0));
+        let gain = db_to_amplitude(loud + random.range(0.0, 15.0));
         dry.put("a companion's laughter", PLACES - 1, random.range(0.0, seconds), &laughter, gain);
         dry
     }
@@ -151,9 +156,9 @@ impl Scenario {
         let mut at = random.range(0.3, 6.0);
         while at < seconds - 1.0 {
             let (length, loud) = (random.range(0.8, 12.0).min(seconds - at), random.range(-45.0, -8.0));
-            dry.put("talk at the kiosk", PLACES - 1, at, &self.speech(length, random), from_decibels(loud));
+            dry.put("talk at the kiosk", PLACES - 1, at, &self.speech(length, random), db_to_amplitude(loud));
             if random.unit() < 0.7 {
-                dry.put_puffs(at, &voices::plosives(length, random), from_decibels(loud + random.range(0.0, 6.0)));
+                dry.put_puffs(at, &voices::plosives(length, random), db_to_amplitude(loud + random.range(0.0, 6.0)));
             }
             at += length + random.range(0.3, 6.0);
         }
@@ -198,7 +203,7 @@ impl Scenario {
                 _ => ("clap", noises::clap(random.range(600.0, 2400.0), random), random.unit() < 0.5),
             };
             let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
-            let gain = from_decibels(random.range(-30.0, 0.0));
+            let gain = db_to_amplitude(random.range(-30.0, 0.0));
             match puffs {
                 Some(puffs) => dry.put_puffs(at, &puffs, gain),
                 None => dry.put(what, place, at, &sound, gain),
@@ -229,7 +234,7 @@ impl Scenario {
             };
             let table = random.unit() < if what == "handling" { 0.8 } else { 0.2 };
             let place = if table { PLACES } else { (random.unit() * PLACES as f64) as usize };
-            dry.put(what, place, at, &peaked(sound), from_decibels(random.range(-42.0, 0.0)));
+            dry.put(what, place, at, &peaked(sound), db_to_amplitude(random.range(-42.0, 0.0)));
             at += random.range(0.7, longest);
         }
         let mut channels = self.heard(&dry, hearing.stereo, random);

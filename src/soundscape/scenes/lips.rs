@@ -1,7 +1,7 @@
 //! Colour of a breath: each combination of lips and capsule has its own spectrum.
 
 use soffio_detector::generate::filter::{high_passed, low_passed};
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_math::noise::Random;
 
 use super::R;
@@ -24,7 +24,7 @@ impl Lips {
         let least = if angle_deg < 15.0 && random.unit() < 0.3 { -25.0 } else { -4.0 };
         let (rumble, hiss) = (random.range(-3.0, 3.0), random.range(least, 6.0));
         let tilt = if random.unit() < 0.4 { random.range(-0.4, 2.5) } else { 0.0 };
-        Self { rumble: from_decibels(rumble), hiss: from_decibels(hiss), tilt }
+        Self { rumble: db_to_amplitude(rumble), hiss: db_to_amplitude(hiss), tilt }
     }
 
     /// Applies the gains to a stream of the formula.

@@ -10,7 +10,7 @@ mod lips;
 
 use soffio_detector::generate::filter::{high_passed, low_passed, normalised, parted, power, white};
 use soffio_math::noise::{Random, hash_words};
-use soffio_math::{exp, from_decibels, tanh};
+use soffio_math::{db_to_amplitude, exp, tanh};
 
 use super::rooms::{ALIKE_HZ, Room, convolved};
 use super::voices::{self, Voice, add};
@@ -232,10 +232,10 @@ impl Scenario {
     fn add_air(channels: &mut [Vec<f64>], dbfs: f64, random: &mut Random) {
         let seconds = channels[0].len() as f64 / R;
         let air = noises::air(seconds + 0.001, random);
-        add(&mut channels[0], 0.0, &air, from_decibels(dbfs));
+        add(&mut channels[0], 0.0, &air, db_to_amplitude(dbfs));
         if let Some(second) = channels.get_mut(1) {
             let other = noises::air(seconds + 0.001, &mut Random::new(hash_words(&[air[0].to_bits(), 2])));
-            add(second, 0.0, &parted(air, other, R, ALIKE_HZ), from_decibels(dbfs));
+            add(second, 0.0, &parted(air, other, R, ALIKE_HZ), db_to_amplitude(dbfs));
         }
     }
 
@@ -247,7 +247,7 @@ impl Scenario {
         let mut delayed = vec![0.0; late as usize];
         delayed.extend(kiosk_sound::speaker_response(played, random));
         delayed.truncate(played.len());
-        let loud = from_decibels(loud);
+        let loud = db_to_amplitude(loud);
         for (channel, response) in channels.iter_mut().zip(&responses[PLACES - 1]) {
             channel.iter_mut().zip(convolved(&delayed, response)).for_each(|(y, x)| *y += loud * x);
         }
@@ -284,15 +284,15 @@ impl Scenario {
         random: &mut Random,
     ) -> Take {
         let corner = [20.0, 40.0, 60.0, 80.0, 110.0][(random.unit() * 5.0) as usize];
-        let gain = from_decibels(hearing.gain_db + random.range(-6.0, 6.0));
-        let (soft, hiss) = (random.unit() < 0.6, from_decibels(random.range(-86.0, -66.0)));
+        let gain = db_to_amplitude(hearing.gain_db + random.range(-6.0, 6.0));
+        let (soft, hiss) = (random.unit() < 0.6, db_to_amplitude(random.range(-86.0, -66.0)));
         // Two capsules never match exactly.
         let mut unlike = Random::new(hash_words(&[self.seed, condition.number(), index, 2]));
         let mut heard = channels.into_iter().enumerate().map(|(capsule, channel)| {
             let noise = white(channel.len(), random);
             let (louder, higher) = match capsule {
                 0 => (1.0, 1.0),
-                _ => (from_decibels(unlike.range(-UNLIKE.0, UNLIKE.0)), 1.0 + unlike.range(-UNLIKE.1, UNLIKE.1)),
+                _ => (db_to_amplitude(unlike.range(-UNLIKE.0, UNLIKE.0)), 1.0 + unlike.range(-UNLIKE.1, UNLIKE.1)),
             };
             let heard = high_passed(channel, R, higher * corner, 2);
             let (gain, rail) = (louder * gain, |x: f64| if soft { tanh(x) } else { x.clamp(-1.0, 1.0) });

@@ -630,7 +630,7 @@ mod room {
 
     /// What the detector says every 20 ms of a normal breath whose samples were so many dB louder.
     fn blown(gain_db: f64, sensitivity_db: f64) -> Vec<BlowEstimate> {
-        let gain = soffio_math::from_decibels(gain_db) as f32;
+        let gain = soffio_math::db_to_amplitude(gain_db) as f32;
         let breath = generate::breath(RATE, 7, &BreathShape::default());
         let settings = BlowSettings { sensitivity_db, ..BlowSettings::default() };
         let mut detector = BlowDetector::with_settings(RATE, settings);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_math::{PI, StateHash, asin, decibels, sin, sqrt};
+use soffio_math::{PI, StateHash, amplitude_to_db, asin, sin, sqrt};
 use soffio_simulation::{
     Command, Event, EventKind, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput,
 };
@@ -73,7 +73,7 @@ impl Heard {
     /// Level of a span of time, dBFS.
     fn level(&self, from: f64, to: f64) -> f64 {
         let at = |t: f64| (t * f64::from(RATE)) as usize;
-        decibels(rms(&self.sound[at(from)..at(to)]))
+        amplitude_to_db(rms(&self.sound[at(from)..at(to)]))
     }
 }
 

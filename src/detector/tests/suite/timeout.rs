@@ -20,7 +20,7 @@ fn speeds(samples: &[f32]) -> Vec<f64> {
 
 /// Two seconds of a quiet room, then the sound at this level (RMS), with a breath at its end.
 fn sound_with_breath(sound: &[f64], dbfs: f64, seed: u64) -> Vec<f32> {
-    let gain = soffio_math::from_decibels(dbfs);
+    let gain = soffio_math::db_to_amplitude(dbfs);
     let mut all = generate::pink_noise(RATE, seed, 2.0, -60.0);
     all.extend(sound.iter().map(|x| (gain * x) as f32));
     let shape = BreathShape { strength: 15.0, distance: 0.08, ..BreathShape::default() };

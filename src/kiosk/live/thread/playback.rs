@@ -7,7 +7,7 @@ use crate::venue::site::Site;
 use soffio_config::AudioSettings;
 use soffio_devices::audio::AudioIo;
 use soffio_exhibit::Exhibit;
-use soffio_math::from_decibels;
+use soffio_math::db_to_amplitude;
 use soffio_sound::SoundCommand;
 
 /// Sound output. The devices are opened together, so the microphone is read through it too.
@@ -107,7 +107,7 @@ impl Playback {
     ) {
         self.loudness.update(wishes, (attracts, closed), self.audio.knobs());
         if let Some(volume_db) = self_test_db {
-            self.audio.knobs().set_volume(from_decibels(volume_db) as f32);
+            self.audio.knobs().set_volume(db_to_amplitude(volume_db) as f32);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd};
 use soffio_math::noise::Random;
-use soffio_math::{PI, atan2, cos, decibels, exp, ln, sincos};
+use soffio_math::{PI, amplitude_to_db, atan2, cos, exp, ln, sincos};
 use soffio_sound::modal::{BLOCK, Bank, GROUP, Partial, fuses};
 
 const RATE: f64 = 48_000.0;
@@ -157,8 +157,8 @@ fn every_level_plays_random_tables_to_minus_ninety_decibels_with_the_bits_of_its
                 })
                 .collect();
             let wrong: Vec<f64> = looked.iter().zip(&reference).map(|(&t, y)| f64::from(out[t]) - y).collect();
-            let error = decibels(rms(&wrong) / rms(&reference));
-            let attack = decibels(rms(&wrong[..1000]) / rms(&reference[..1000]));
+            let error = amplitude_to_db(rms(&wrong) / rms(&reference));
+            let attack = amplitude_to_db(rms(&wrong[..1000]) / rms(&reference[..1000]));
             println!("seed {seed}: {} partials, {level:?}: {error:.1} dB, first 20 ms {attack:.1} dB", partials.len());
             assert!(error < KERNEL_DB && attack < KERNEL_DB, "seed {seed}, {level:?}: {error} dB, attack {attack} dB");
         }
@@ -248,7 +248,7 @@ fn decay_takes_the_time_asked_for() {
             let levels: Vec<(f64, f64)> = (0..points)
                 .map(|i| {
                     let [re, im] = product(&out[i * step..i * step + window], i * step, frequency);
-                    ((i * step) as f64 / RATE, decibels((re * re + im * im).sqrt()))
+                    ((i * step) as f64 / RATE, amplitude_to_db((re * re + im * im).sqrt()))
                 })
                 .collect();
             let n = points as f64;
@@ -311,7 +311,7 @@ fn a_force_at_audio_rate_drives_the_partials_exactly() {
                     *z = [re * rho[0] - z[1] * rho[1], re * rho[1] + z[1] * rho[0]];
                 }
             }
-            let error = decibels(rms(&wrong) / rms(&right));
+            let error = amplitude_to_db(rms(&wrong) / rms(&right));
             println!("seed {}: {} partials driven, {level:?}: {error:.1} dB", 100 + seed, partials.len());
             assert!(error < KERNEL_DB, "seed {}, {level:?}: {error} dB", 100 + seed);
         }
@@ -382,7 +382,7 @@ fn forgetting(hits_per_minute: f64, seconds: f64, threshold: f64, seed: u64) -> 
         loudest = loudest.max(b.abs());
         fewest = fewest.min(players[0].bank.ringing());
     }
-    (decibels(worst), decibels(loudest), fewest)
+    (amplitude_to_db(worst), amplitude_to_db(loudest), fewest)
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use soffio_fourier::{Complex, real_forward, real_inverse};
 use soffio_math::noise::Random;
-use soffio_math::{decibels, from_decibels, ln};
+use soffio_math::{amplitude_to_db, db_to_amplitude, ln};
 use soffio_sound::{BANDS, Reverb, ReverbSpec};
 
 const RATE: u32 = 48_000;
@@ -32,7 +32,7 @@ fn octave(samples: &[f64], centre: f64) -> Vec<f64> {
     let mut bins = spectrum(&padded);
     for (i, bin) in bins.iter_mut().enumerate() {
         let frequency = i as f64 * f64::from(RATE) / padded.len() as f64;
-        let off = (decibels(frequency.max(1e-9) / centre) / decibels(2.0)).abs();
+        let off = (amplitude_to_db(frequency.max(1e-9) / centre) / amplitude_to_db(2.0)).abs();
         *bin *= ((0.583 - off) * 6.0).clamp(0.0, 1.0);
     }
     let (first, last) = (0, bins.len() - 1);
@@ -51,7 +51,7 @@ fn t60(samples: &[f64]) -> f64 {
     for i in (0..left.len() - 1).rev() {
         left[i] += left[i + 1];
     }
-    let level = |i: usize| 0.5 * decibels(left[i] / left[0]);
+    let level = |i: usize| 0.5 * amplitude_to_db(left[i] / left[0]);
     let (from, to) = ((0..left.len()).find(|&i| level(i) < -5.0), (0..left.len()).find(|&i| level(i) < -35.0));
     let (from, to) = (from.expect("it decays"), to.expect("it decays by 35 dB"));
     // Least squares over every tenth of a millisecond.
@@ -125,7 +125,7 @@ fn its_level_is_what_was_asked_for() {
         });
         let went_in = impulse.iter().map(|x| f64::from(x * x)).sum::<f64>();
         for side in response(&spec, impulse, 2.0) {
-            let db = 0.5 * decibels(energy(&side) / (direct * went_in));
+            let db = 0.5 * amplitude_to_db(energy(&side) / (direct * went_in));
             assert!((db - level_db).abs() < TOLERANCE_DB, "{db} dB, not {level_db} dB, for {impulse:?}");
         }
     }
@@ -164,7 +164,7 @@ fn flatness(samples: &[f64]) -> f64 {
     let bin = |frequency: f64| (frequency * samples.len() as f64 / f64::from(RATE)) as usize;
     let (mut edge, mut sum, mut count) = (300.0, 0.0, 0.0);
     while edge < 10_000.0 {
-        let next = edge * from_decibels(decibels(2.0) / 10.0);
+        let next = edge * db_to_amplitude(amplitude_to_db(2.0) / 10.0);
         let power: Vec<f64> = bins[bin(edge)..bin(next)].iter().map(Complex::norm_sqr).collect();
         let n = power.len() as f64;
         let geometric = power.iter().map(|p| ln(p.max(1e-30))).sum::<f64>() / n;
@@ -245,7 +245,7 @@ fn its_energy_falls_from_window_to_window() {
     let levels: Vec<f64> = (2..38)
         .map(|i| {
             let window = |side: &[f64]| side[i * 2400..(i + 1) * 2400].iter().map(|x| x * x).sum::<f64>();
-            0.5 * decibels(window(&left) + window(&right))
+            0.5 * amplitude_to_db(window(&left) + window(&right))
         })
         .collect();
     assert!(levels.windows(2).all(|w| w[1] < w[0] + 1.0), "{levels:?}");

@@ -8,7 +8,7 @@ use fundsp::F32x;
 use fundsp::Frame;
 use fundsp::biquad_bank::BiquadBank;
 use fundsp::prelude::{AudioNode, BiquadCoefs};
-use soffio_math::{PI, decibels, exp, ln, sincos};
+use soffio_math::{PI, amplitude_to_db, exp, ln, sincos};
 use soffio_math::noise::Random;
 use soffio_sound::modal::{BLOCK, Bank, Partial};
 
@@ -167,5 +167,5 @@ fn error(out: &[f32], reference: &[f64]) -> f64 {
         wrong += e * e;
         right += y * y;
     }
-    decibels((wrong / right).sqrt())
+    amplitude_to_db((wrong / right).sqrt())
 }

@@ -11,7 +11,7 @@ mod winds;
 use fearless_simd::Level;
 use proptest::prelude::*;
 use soffio_math::noise::Random;
-use soffio_math::{PI, StateHash, decibels};
+use soffio_math::{PI, StateHash, amplitude_to_db};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
     CEILING, Damp, FADING_VOICES, InstrumentSpec, MAX_COMMANDS, MAX_VOICES, Preset, SoundBody, SoundCommand,
@@ -168,7 +168,7 @@ fn decay_takes_the_time_asked_for() {
             .collect();
         let apart = (t60 * 0.5 * f64::from(RATE)) as usize;
         let (early, late) = (amplitude(&out[480..2880], 1000.0), amplitude(&out[480 + apart..2880 + apart], 1000.0));
-        let fall = decibels(early / late);
+        let fall = amplitude_to_db(early / late);
         assert!((fall / 30.0 - 1.0).abs() < TOLERANCE, "T60 {t60} s: {fall} dB in half of it");
     }
 }
@@ -203,7 +203,7 @@ fn harder_hits_are_louder_and_faster_hits_brighter() {
         rms(&slope) / rms(x)
     };
     let (soft, hard) = (hit(1e-5, 0.3), hit(1e-4, 0.3));
-    let ratio = decibels(rms(&hard) / rms(&soft));
+    let ratio = amplitude_to_db(rms(&hard) / rms(&soft));
     // Linear but for partials that were never started because they are inaudible.
     assert!((ratio - 20.0).abs() < 0.5, "{ratio} dB");
     assert!(brightness(&hit(1e-4, 1.5)) > 1.1 * brightness(&hit(1e-4, 0.05)));
@@ -217,13 +217,13 @@ fn a_mobiles_hits_are_clearly_heard_and_its_touches_soft() {
             let mut synth = synth(&[body(radius)]);
             synth.set_dry(true);
             synth.command(SoundCommand::Strike(Strike { speed, ..strike(0, impulse) }));
-            let db = decibels(f64::from(peak(&render(&mut synth, RATE as usize / 2))));
+            let db = amplitude_to_db(f64::from(peak(&render(&mut synth, RATE as usize / 2))));
             println!("disc of {radius} m, {impulse} N s at {speed} m/s: {db:.1} dBFS");
             assert!((-34.0..0.0).contains(&db), "disc of {radius} m, {impulse} N s at {speed} m/s: {db} dBFS");
         }
         let mut synth = synth(&[body(radius)]);
         synth.command(SoundCommand::Strike(Strike { speed: 0.02, ..strike(0, 5e-6) }));
-        let db = decibels(f64::from(peak(&render(&mut synth, RATE as usize / 2))));
+        let db = amplitude_to_db(f64::from(peak(&render(&mut synth, RATE as usize / 2))));
         assert!(db < -40.0, "a touch: {db} dBFS");
     }
 }
@@ -359,13 +359,13 @@ fn nothing_leaves_above_the_ceiling() {
     commands.iter().for_each(|c| synth.command(*c));
     let out = render(&mut synth, RATE as usize);
     let peak = peak(&out);
-    println!("peak {:.3} dBFS", decibels(f64::from(peak)));
+    println!("peak {:.3} dBFS", amplitude_to_db(f64::from(peak)));
     assert!(peak > 0.8 && f64::from(peak) <= CEILING, "{peak}");
 }
 
 /// Sum of two sounds, sample by sample, against a third, dB of full scale.
 fn difference(a: &[f32], b: &[f32], whole: &[f32]) -> f64 {
-    decibels(f64::from(a.iter().zip(b).zip(whole).fold(0.0f32, |m, ((a, b), w)| m.max((a + b - w).abs()))))
+    amplitude_to_db(f64::from(a.iter().zip(b).zip(whole).fold(0.0f32, |m, ((a, b), w)| m.max((a + b - w).abs()))))
 }
 
 #[test]
@@ -417,7 +417,10 @@ fn a_storm_of_hits_is_heard_without_a_click() {
             apart.iter_mut().zip(render(&mut synth, frames)).for_each(|(sum, x)| *sum += x);
         }
         let found = difference(&apart, &vec![0.0; apart.len()], &together);
-        println!("{per_minute} hits a minute: {found:.1} dBFS, peak {:.1} dBFS", decibels(f64::from(peak(&together))));
+        println!(
+            "{per_minute} hits a minute: {found:.1} dBFS, peak {:.1} dBFS",
+            amplitude_to_db(f64::from(peak(&together)))
+        );
         assert!(found < CLICK_DB, "seed {per_minute}: {found} dBFS");
     }
 }
@@ -431,7 +434,7 @@ fn more_hits_than_can_be_told_apart_become_one() {
         (0..count).for_each(|_| synth.command(SoundCommand::Strike(strike(1, 1e-3 / count as f32))));
         rms(&render(&mut synth, RATE as usize))
     };
-    let db = decibels(play(1000) / play(1));
+    let db = amplitude_to_db(play(1000) / play(1));
     assert!(db.abs() < 0.1, "{db} dB");
 }
 
@@ -449,8 +452,8 @@ fn a_hand_on_a_bell_stills_it() {
     let c = 2.0 / (2.0 * spec("bell").body.mass);
     let (from, to) = (0.125, 0.25);
     let left = (soffio_math::exp(-2.0 * c * from) - soffio_math::exp(-2.0 * c * to)) / (2.0 * c * (to - from));
-    let expected = decibels(left.sqrt());
-    let found = decibels(level(2.0) / level(0.0));
+    let expected = amplitude_to_db(left.sqrt());
+    let found = amplitude_to_db(level(2.0) / level(0.0));
     // The bell's own decays differ, so it is not the same mixture of partials in both.
     assert!((found - expected).abs() < 1.0, "{found} dB, not {expected} dB");
 }

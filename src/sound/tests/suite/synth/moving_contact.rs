@@ -1,6 +1,6 @@
 //! What is scraped where: the place of a contact moves along a body while it sounds.
 
-use soffio_math::decibels;
+use soffio_math::amplitude_to_db;
 use soffio_sound::{InstrumentSpec, Preset, Slide, SoundBody, SoundCommand, SoundMaterial, Synth};
 
 use super::{RATE, render, rms, spec, steel};
@@ -46,8 +46,8 @@ fn the_place_of_a_contact_moves_on() {
     };
     let out = play(RATE as usize);
     let (middle, node) = (rms(&out[24_000..48_000]), rms(&out[78_000..96_000]));
-    println!("at the node {:.1} dB below the middle", decibels(middle / node));
-    assert!(decibels(middle / node) > 20.0, "{middle} and {node}");
+    println!("at the node {:.1} dB below the middle", amplitude_to_db(middle / node));
+    assert!(amplitude_to_db(middle / node) > 20.0, "{middle} and {node}");
     // On the way there is no step: a click would be where the signal changes fastest.
     let fastest = |part: &[f32]| part.windows(3).map(|w| (w[2] - 2.0 * w[1] + w[0]).abs()).fold(0.0, f32::max);
     assert!(fastest(&out[48_000..61_000]) < 1.5 * fastest(&out[12_000..48_000]));

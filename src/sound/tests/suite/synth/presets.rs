@@ -1,6 +1,6 @@
 //! The shipped presets: each sounds like what it is, in figures.
 
-use soffio_math::decibels;
+use soffio_math::amplitude_to_db;
 use soffio_sound::modes::T60_DECAYS;
 use soffio_sound::{Mode, Preset, Slide, SoundCommand, Strike, Synth, WindSound, partials, timbre};
 
@@ -52,8 +52,8 @@ fn all_compile_and_sound_at_a_sensible_level() {
     for name in timbre::names() {
         let preset = Preset::shipped(name).expect("valid");
         let out: Vec<f32> = heard(&preset, 2.0).iter().map(|x| *x as f32).collect();
-        let db = decibels(f64::from(peak(&out)));
-        println!("{name}: peak {db:.1} dBFS, rms {:.1} dBFS", decibels(rms(&out)));
+        let db = amplitude_to_db(f64::from(peak(&out)));
+        println!("{name}: peak {db:.1} dBFS, rms {:.1} dBFS", amplitude_to_db(rms(&out)));
         // Heard at one metre on a laptop's speaker; no specimen's hit leans on the limiter.
         if !(-36.0..-3.0).contains(&db) {
             wrong.push(format!("{name}: {db:.1} dBFS"));
@@ -81,7 +81,7 @@ fn the_thesis_counts_and_times_of_decay_are_kept() {
         let frame = (0.02 * f64::from(RATE)) as usize;
         let levels: Vec<f64> = out
             .chunks_exact(frame)
-            .map(|c| decibels((c.iter().map(|x| x * x).sum::<f64>() / frame as f64).sqrt()))
+            .map(|c| amplitude_to_db((c.iter().map(|x| x * x).sum::<f64>() / frame as f64).sqrt()))
             .collect();
         let top = levels.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let fallen = levels.iter().rposition(|l| *l > top - 60.0).expect("it sounds") as f64 * 0.02;
@@ -109,8 +109,9 @@ fn chimes_ring_at_c5_as_long_as_their_metal_does() {
         let early = (0.05 * f64::from(RATE)) as usize;
         let late = early + (apart * f64::from(RATE)) as usize;
         let middle = 0.5 * (modes[0].frequency + modes[1].frequency);
-        let fall =
-            decibels(amplitude(&out[early..early + window], middle) / amplitude(&out[late..late + window], middle));
+        let fall = amplitude_to_db(
+            amplitude(&out[early..early + window], middle) / amplitude(&out[late..late + window], middle),
+        );
         if apart == beat {
             // After a whole beat the two planes are in step again.
             let heard = 60.0 * apart / fall;

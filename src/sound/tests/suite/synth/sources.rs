@@ -100,7 +100,7 @@ fn draws_keep_to_their_distributions() {
     // −6 dB per octave: a regression over 600 Rayleigh levels, whose logarithm spreads by 5.6 dB, is this good.
     const TILT: f64 = 1.0;
     let points: Vec<(f64, f64)> =
-        drawn.iter().map(|m| (ln(m.frequency) / ln(2.0), soffio_math::decibels(m.amplitude))).collect();
+        drawn.iter().map(|m| (ln(m.frequency) / ln(2.0), soffio_math::amplitude_to_db(m.amplitude))).collect();
     let n = points.len() as f64;
     let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
     let slope = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum::<f64>()

@@ -1,6 +1,6 @@
 //! Scraping: the line of a surface as a sound.
 
-use soffio_math::{PI, decibels, sin};
+use soffio_math::{PI, amplitude_to_db, sin};
 use soffio_sound::{Preset, Slide, SoundCommand, SurfaceLine, Synth};
 
 use super::winds::spectrum;
@@ -79,7 +79,7 @@ fn what_is_too_fine_to_hear_does_not_come_back_as_something_else() {
             let own = f64::from(speed) * periods as f64 / 0.4096 * f64::from(1 << 12) / f64::from(RATE);
             let stray =
                 (2..power.len()).filter(|i| (*i as f64 - own).abs() > 16.0).map(|i| power[i]).fold(0.0, f64::max);
-            let db = 0.5 * decibels(stray / full);
+            let db = 0.5 * amplitude_to_db(stray / full);
             worst = worst.max(db);
             assert!(db < ALIAS, "{periods} periods at {speed} m/s: {db:.1} dB beside {own:.0}");
         }
@@ -94,11 +94,11 @@ fn the_level_follows_the_force_by_its_power() {
     let preset = needle("kind = \"rough\"");
     let level = |force: f32| {
         let out = slide(&preset, None, 0.2, force, 1.0);
-        decibels((out.iter().map(|x| x * x).sum::<f64>() / out.len() as f64).sqrt())
+        amplitude_to_db((out.iter().map(|x| x * x).sum::<f64>() / out.len() as f64).sqrt())
     };
     for (low, high) in [(0.5, 1.0), (1.0, 4.0)] {
         let gain = level(high) - level(low);
-        let wanted = 0.6 * decibels(f64::from(high / low));
+        let wanted = 0.6 * amplitude_to_db(f64::from(high / low));
         assert!((gain - wanted).abs() < TOLERANCE, "{gain} dB, not {wanted}");
     }
 }

@@ -1,7 +1,7 @@
 //! The sound of wind: its slope, its pitch and its level, from long-term spectra.
 
 use soffio_fourier::real_forward;
-use soffio_math::{decibels, ln};
+use soffio_math::{amplitude_to_db, ln};
 use soffio_sound::{Preset, SoundCommand, Synth, WindSound, multifractal};
 
 use super::{RATE, render, rms, spec};
@@ -87,7 +87,7 @@ fn wind_gains_eighteen_decibels_per_doubling() {
     for (name, speeds) in [("wind-room", [0.75, 1.5, 3.0]), ("wind-wire", [1.0, 2.0, 4.0])] {
         let levels: Vec<f64> = speeds
             .iter()
-            .map(|&speed| decibels(rms(&wind(name, speed, 20).iter().map(|x| *x as f32).collect::<Vec<_>>())))
+            .map(|&speed| amplitude_to_db(rms(&wind(name, speed, 20).iter().map(|x| *x as f32).collect::<Vec<_>>())))
             .collect();
         println!("{name} at {speeds:?} m/s: {levels:.2?} dBFS");
         for pair in levels.windows(2) {
