@@ -286,6 +286,14 @@ fn first_difference([dynamics, other]: &[Vec<EventSummary>; 2]) -> Option<FirstD
     Some(FirstDifference { index, dynamics: dynamics.get(index).cloned(), other: other.get(index).cloned() })
 }
 
+/// What one chart of the picture shows.
+struct ChartQuantity<'a> {
+    title: &'a str,
+    unit: &'a str,
+    /// Least range of the vertical axis.
+    min_range: f64,
+}
+
 impl Comparison {
     /// Writes the samples as CSV.
     pub fn write_csv(&self, path: &Path) -> std::io::Result<()> {
@@ -302,14 +310,19 @@ impl Comparison {
     pub fn write_picture(&self, path: &Path, exhibit: &Exhibit) -> Result<(), PlayError> {
         let mut canvas = Canvas::new(WIDTH, HEIGHT);
         let Summary { solver, rms_m, rms_deg, .. } = &self.summary;
-        canvas.words(80.0, 52.0, 32.0, Align::Left, INK, &format!("{}: the laws and {solver}", exhibit.id));
+        canvas.words(80.0, 52.0, 32.0, Align::Left, INK, &format!("{}: dynamics and {solver}", exhibit.id));
         let about = format!("apart by {:.3} mm and {rms_deg:.3}° rms over {} bodies", 1e3 * rms_m, self.summary.bodies);
         canvas.words(80.0, 82.0, 18.0, Align::Left, PALE, &about);
         let millimetres = |row: &DifferenceSample| row.position.map(|d| 1e3 * d);
-        self.chart(&mut canvas, 0, ("Places apart", "mm", MIN_CHART_RANGE), ["rms", "farthest"], millimetres);
-        self.chart(&mut canvas, 1, ("Turns apart", "degrees", MIN_CHART_RANGE), ["rms", "largest"], |row| row.rotation);
-        self.chart(&mut canvas, 2, ("Energy", "J", MIN_CHART_RANGE), ["laws", solver], |row| row.energy);
-        self.chart(&mut canvas, 3, ("Events so far", "", 1.0), ["laws", solver], |row| row.events.map(|n| n as f64));
+        let quantity = |title, unit, min_range| ChartQuantity { title, unit, min_range };
+        let positions = quantity("Position difference", "mm", MIN_CHART_RANGE);
+        self.chart(&mut canvas, 0, positions, ["rms", "largest"], millimetres);
+        let rotations = quantity("Rotation difference", "degrees", MIN_CHART_RANGE);
+        self.chart(&mut canvas, 1, rotations, ["rms", "largest"], |row| row.rotation);
+        let energy = quantity("Energy", "J", MIN_CHART_RANGE);
+        self.chart(&mut canvas, 2, energy, ["dynamics", solver], |row| row.energy);
+        let events = quantity("Events so far", "", 1.0);
+        self.chart(&mut canvas, 3, events, ["dynamics", solver], |row| row.events.map(|n| n as f64));
         let mut bytes = Vec::new();
         let packed = canvas.finish().write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png);
         packed.map_err(|error| PlayError::Output(error.to_string()))?;
@@ -318,15 +331,16 @@ impl Comparison {
         Ok(file.finish()?)
     }
 
-    /// Two curves over time in the `index`th chart from the top, with a least range.
+    /// Two curves over time in the `index`th chart from the top.
     fn chart(
         &self,
         canvas: &mut Canvas,
         index: usize,
-        (title, unit, least): (&str, &str, f64),
+        quantity: ChartQuantity,
         names: [&str; 2],
         of: impl Fn(&DifferenceSample) -> [f64; 2],
     ) {
+        let ChartQuantity { title, unit, min_range } = quantity;
         let values = || self.samples.iter().flat_map(&of);
         let high = values().fold(f64::MIN, f64::max);
         let low = values().fold(high, f64::min);
@@ -338,7 +352,7 @@ impl Comparison {
         let chart = Chart {
             place: [80.0, top, 1080.0, 185.0],
             x: Axis::linear(0.0, last),
-            y: Axis::linear(if low == 0.0 { 0.0 } else { low - margin }, (high + margin).max(low + least)),
+            y: Axis::linear(if low == 0.0 { 0.0 } else { low - margin }, (high + margin).max(low + min_range)),
         };
         chart.frame(canvas, title, "s", unit);
         let mut x = 260.0;

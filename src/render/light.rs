@@ -5,7 +5,7 @@ use super::environment::{CUBE_MIPS, CUBE_SIZE, Environment};
 use super::gallery::Gallery;
 use super::occlusion::PLANE_MAP;
 use super::radiosity::LIGHTMAP_SIZE;
-use super::resources::{filled, half4, light_texture};
+use super::resources::{SquareSize, filled, half4, light_texture};
 use super::shared::SharedResources;
 
 /// Sources of the light on one exhibit.
@@ -36,9 +36,17 @@ pub(super) fn light_group(gpu: &Gpu, shared: &SharedResources, light: LightResou
     let mut lightmap: Vec<_> = light.gallery.lightmap().into_iter().map(half4).collect();
     lightmap.resize(lightmap.len() / 6 * 7, [0; 4]);
     use wgpu::TextureViewDimension::{Cube, D2Array};
-    let environment = light_texture(gpu, "environment", (CUBE_SIZE, 6, CUBE_MIPS), &cube, Cube);
-    let lightmap = light_texture(gpu, "light map", (LIGHTMAP_SIZE, 7, 1), &lightmap, D2Array);
-    let ambient = filled(gpu, "ambient", (PLANE_MAP, 2, 1), wgpu::TextureFormat::R8Unorm, light.ambient);
+    let environment =
+        light_texture(gpu, "environment", SquareSize { side: CUBE_SIZE, layers: 6, levels: CUBE_MIPS }, &cube, Cube);
+    let lightmap =
+        light_texture(gpu, "light map", SquareSize { side: LIGHTMAP_SIZE, layers: 7, levels: 1 }, &lightmap, D2Array);
+    let ambient = filled(
+        gpu,
+        "ambient",
+        SquareSize { side: PLANE_MAP, layers: 2, levels: 1 },
+        wgpu::TextureFormat::R8Unorm,
+        light.ambient,
+    );
     let ambient = ambient.create_view(&wgpu::TextureViewDescriptor { dimension: Some(D2Array), ..Default::default() });
     use wgpu::BindingResource::{Sampler, TextureView};
     let resources = [

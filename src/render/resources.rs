@@ -35,27 +35,39 @@ pub(super) fn sampler(device: &wgpu::Device) -> wgpu::Sampler {
     })
 }
 
-/// A square texture (texels along a side, layers, levels) of 16-bit floats, layer by layer, each with all its levels.
+/// Size of a square texture.
+#[derive(Clone, Copy)]
+pub(super) struct SquareSize {
+    /// Texels along a side.
+    pub side: u32,
+    /// Number of layers.
+    pub layers: u32,
+    /// Number of mip levels.
+    pub levels: u32,
+}
+
+/// A square texture of 16-bit floats, layer by layer, each with all its levels.
 pub(super) fn light_texture(
     gpu: &Gpu,
     label: &str,
-    (side, layers, levels): (u32, u32, u32),
+    size: SquareSize,
     texels: &[[u16; 4]],
     dimension: wgpu::TextureViewDimension,
 ) -> wgpu::TextureView {
     let format = wgpu::TextureFormat::Rgba16Float;
-    let texture = filled(gpu, label, (side, layers, levels), format, bytemuck::cast_slice(texels));
+    let texture = filled(gpu, label, size, format, bytemuck::cast_slice(texels));
     texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(dimension), ..Default::default() })
 }
 
-/// A square texture (texels along a side, layers, levels) of `bytes`.
+/// A square texture of `bytes`.
 pub(super) fn filled(
     gpu: &Gpu,
     label: &str,
-    (side, layers, levels): (u32, u32, u32),
+    size: SquareSize,
     format: wgpu::TextureFormat,
     bytes: &[u8],
 ) -> wgpu::Texture {
+    let SquareSize { side, layers, levels } = size;
     let descriptor = wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: side, height: side, depth_or_array_layers: layers },

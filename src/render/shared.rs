@@ -10,7 +10,7 @@ use super::frames::MAX_FRAMES;
 use super::globals::Globals;
 use super::passes::PassPlan;
 use super::pipelines::{Layouts, Pipelines};
-use super::resources::{attachment, half4, light_texture, sampler};
+use super::resources::{SquareSize, attachment, half4, light_texture, sampler};
 use super::shadows::ShadowMapCamera;
 use super::textures;
 use super::{Gpu, Options, details};
@@ -79,7 +79,13 @@ impl SharedResources {
             frames_buffer,
             dust_buffer: buffer("dust", MAX_DUST * 16, wgpu::BufferUsages::VERTEX),
             frame_group,
-            table: light_texture(gpu, "split sum", (TABLE_SIZE, 1, 1), &table, wgpu::TextureViewDimension::D2),
+            table: light_texture(
+                gpu,
+                "split sum",
+                SquareSize { side: TABLE_SIZE, layers: 1, levels: 1 },
+                &table,
+                wgpu::TextureViewDimension::D2,
+            ),
             smooth: sampler(device),
             map_views: map.map(|of| attachment(device, of, wgpu::TextureUsages::TEXTURE_BINDING)),
             white: textures::white(gpu),

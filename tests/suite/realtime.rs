@@ -247,7 +247,7 @@ mod callback {
         const BLOCK: u64 = 480;
         // A block waits for its end; nothing else may wait.
         const LONGEST_S: f64 = BLOCK as f64 / RATE + 1e-6;
-        let (mut recorder, mut ears) = input::open(48_000, 1, [1, 0]);
+        let (mut recorder, mut capture) = input::open(48_000, 1, [1, 0]);
         let mut pacer = soffio_kiosk::live::step_scheduler::StepScheduler::default();
         let mut random = soffio_math::noise::Random::new(5);
         let (mut now, mut sent, mut heard_in_all) = (0.0, 0_u64, 0_u64);
@@ -265,7 +265,7 @@ mod callback {
                 continue;
             }
             heard.clear();
-            heard_in_all += ears.read(&mut heard) as u64;
+            heard_in_all += capture.read(&mut heard) as u64;
             assert_eq!(heard_in_all, sent, "at {now} s samples wait or are lost");
             if let Some(&last) = heard.samples.last() {
                 assert_eq!((f64::from(last) * f64::from(1 << 24)) as u64, (sent - 1) % (1 << 24), "at {now} s");

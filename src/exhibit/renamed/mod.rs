@@ -89,7 +89,7 @@ pub struct Replacement {
     pub span: Range<usize>,
     /// The row of the table.
     pub name: OldName,
-    /// What stands in its place, quotes included.
+    /// The replacement, quotes included.
     text: String,
 }
 

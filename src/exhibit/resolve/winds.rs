@@ -50,8 +50,8 @@ impl Context<'_> {
     pub(super) fn winds(&mut self) -> Vec<Wind> {
         let sidecar = self.sidecar;
         let mut winds: Vec<Wind> = Vec::new();
-        if let Some(room) = &sidecar.wind.ambient {
-            winds.push(self.ambient_turbulence(room, "/wind/ambient"));
+        if let Some(ambient) = &sidecar.wind.ambient {
+            winds.push(self.ambient_turbulence(ambient, "/wind/ambient"));
         }
         for (i, fan) in sidecar.wind.fan.iter().enumerate() {
             let at = format!("/wind/fan/{i}");
