@@ -181,7 +181,7 @@ impl Screen {
     /// Prepares an exhibit for drawing, so that its first frames are not late.
     pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
         // Errors are reported when it is shown.
-        self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|exhibit| (exhibit.clone(), exhibit));
+        self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|work| (exhibit.clone(), work));
     }
 
     /// Shows another exhibit. If it cannot be drawn, the last scene stays.
@@ -190,11 +190,11 @@ impl Screen {
             return;
         }
         self.shown = exhibit.clone();
-        if let Some((_, exhibit)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
-            return self.scene.show(exhibit);
+        if let Some((_, work)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
+            return self.scene.show(work);
         }
         match self.scene.prepare(&self.gpu, exhibit) {
-            Ok(exhibit) => self.scene.show(exhibit),
+            Ok(work) => self.scene.show(work),
             Err(error) => tracing::error!("{} cannot be drawn: {error}", exhibit.id),
         }
     }
