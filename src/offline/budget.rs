@@ -170,7 +170,7 @@ impl LateStep {
             1e3 * BUDGET
         );
         let fewer = match load {
-            StressLoad::Assembly(_) => "fewer joints that close loops, or `gathers = false` under [scene]",
+            StressLoad::Assembly(_) => "fewer joints that close loops, or `assembly_animation = false` under [scene]",
             StressLoad::Breath(_) | StressLoad::Drag => {
                 "fewer parts that touch at once, simpler shapes, fewer joints that close loops"
             }

@@ -115,7 +115,7 @@ killed() {
     after=$(state hold)
     bar "killed: counters kept" "\"$before\" == \"2\" && \"$after\" == \"3\" && $(state starts) == 2" \
         "$before held breaths before, $after after another one, $(state starts) starts"
-    second=$(grep -c 'steel-fish is on show\|goes on with what it kept' "$workdir/killed.err")
+    second=$(grep -c 'steel-fish is on show\|restores its state' "$workdir/killed.err")
     bar "killed: state restored" "\"$(state on_show)\" == \"steel-fish\" && \"$(state muted)\" == \"true\" && $second == 2" \
         "$(state on_show) on show, muted: $(state muted)"
     local code=0
@@ -135,7 +135,7 @@ crash_loop() {
     within 20 pixels loop 4 || true
     within 20 picture || true
     sleep 2.5
-    saw=$(grep -c 'safe mode: the kiosk died' "$workdir/loop.err" || true)
+    saw=$(grep -c 'safe mode: the kiosk crashed' "$workdir/loop.err" || true)
     bar "crash loop: safe mode" "$saw == 1 && \"$(state on_show)\" == \"pendulum\" && $(state deaths) == 3" \
         "$(state deaths) deaths, $(state on_show) on show, $saw messages for staff"
     end_launcher || true
@@ -146,8 +146,8 @@ crash_loop() {
         kill -9 "$(child)"
     done
     within 20 pixels unkept 4 || true
-    saw=$(grep -c 'safe mode: the kiosk died' "$workdir/unkept.err" || true)
-    bar "crash loop: without a disk" "$saw == 1 && $(grep -c 'nothing outlives this run' "$workdir/unkept.err") == 4" \
+    saw=$(grep -c 'safe mode: the kiosk crashed' "$workdir/unkept.err" || true)
+    bar "crash loop: without a disk" "$saw == 1 && $(grep -c 'no state is kept after this run' "$workdir/unkept.err") == 4" \
         "$saw messages for staff"
     end_launcher || true
 }
@@ -253,9 +253,9 @@ config_broken() {
     within 20 picture || true
     sleep 1
     printf '[visit]\nbreth = tru\n[[[' >"$toml"
-    within 5 grep -q 'last good configuration stays' "$workdir/site.err" || true
+    within 5 grep -q 'last valid configuration stays' "$workdir/site.err" || true
     picture && seen=1 || seen=0
-    bar "config broken: stays" "$seen == 1 && $(grep -c 'last good configuration stays' "$workdir/site.err") == 1" "refused, the picture stays"
+    bar "config broken: stays" "$seen == 1 && $(grep -c 'last valid configuration stays' "$workdir/site.err") == 1" "refused, the picture stays"
     # It is killed in this state, while the file is still broken.
     t=$(now)
     kill -9 "$(child)"
@@ -398,12 +398,12 @@ broker() {
     # A retained command from before its start is ignored, and a broker that goes away stops nothing.
     "${command[@]}" -r -m blank
     launch_kiosk broker_gone --config "$toml" --no-attract
-    within 10 grep -q 'is told as' "$workdir/broker_gone.err" || true
+    within 10 grep -q 'mqtt: connected to' "$workdir/broker_gone.err" || true
     kill "$server"
     wait "$server" 2>/dev/null || true
     sleep 3
     picture && seen=1 || seen=0
-    bar "broker: gone" "$seen == 1 && $(grep -c '"blank" is not obeyed' "$workdir/broker_gone.err") == 1 && $(grep -c 'does not answer' "$workdir/broker_gone.err") == 1" "reported once, the picture stays"
+    bar "broker: gone" "$seen == 1 && $(grep -c '"blank" is ignored' "$workdir/broker_gone.err") == 1 && $(grep -c 'mqtt: no connection to' "$workdir/broker_gone.err") == 1" "reported once, the picture stays"
     end_launcher || true
 }
 published() { grep -q "$1" "$workdir/messages.out"; }

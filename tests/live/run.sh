@@ -236,8 +236,8 @@ doctor_blow() {
     level=$(sed -nE 's/^(ok|warn|bad) +microphone level: //p' "$workdir/doctor.out")
     bar "doctor: three breaths" "$code == 0 && \"$breaths_found\" ~ /^heard 3, /" "exit code $code, $breaths_found"
     bar "doctor: level and floor" "\"$level\" ~ /^-[0-9.]+ dBFS, peak .*floor .* -[0-9.]+ dBFS/" "$level"
-    bar "doctor: two capsules" "$(grep -c 'second capsule: it listens' "$workdir/doctor.out") == 1" \
-        "$(grep 'second capsule' "$workdir/doctor.out" || echo nothing is said of a second capsule)"
+    bar "doctor: two capsules" "$(grep -c 'second microphone: it works' "$workdir/doctor.out") == 1" \
+        "$(grep 'second microphone' "$workdir/doctor.out" || echo nothing is said of a second microphone)"
 }
 
 # ---- the kiosk's echo never triggers it, even next to its loudspeaker, and it detects a breath over its own sound ---------------------------

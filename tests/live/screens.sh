@@ -113,7 +113,7 @@ every_screen() {
     shot attract
     xdotool mousemove 640 300 mousedown 1 sleep 0.3 mouseup 1
     # The suite tests that it yields in the step of the touch. The window receives a touch between two pictures, which are slow here.
-    within 8 grep -q 'somebody is here' "$workdir/screens.err" && back=1 || back=0
+    within 8 grep -q 'attract mode ends' "$workdir/screens.err" && back=1 || back=0
     bar "attract: comes, yields" "$left == 1 && $seen == 1 && $back == 1" "the page closed by itself; a touch gave it back"
 
     # Closed by its hours, opened by staff, closed again, and open by its hours.

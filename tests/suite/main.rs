@@ -21,6 +21,7 @@ mod kiosk;
 mod loudness;
 mod mobiles;
 mod models;
+mod old_names;
 #[cfg(feature = "kiosk")]
 mod penumbrae;
 #[cfg(feature = "kiosk")]

@@ -153,14 +153,14 @@ pub fn with_key(text: &str, table: &str, key: &str, value: f64) -> Result<String
 }
 
 /// The text with another list of strings at a key of a table. Remaining entries keep their comments.
-pub fn with_list(text: &str, table: &str, key: &str, words: &[String]) -> Result<String, String> {
+pub fn with_list(text: &str, table: &str, key: &str, entries: &[String]) -> Result<String, String> {
     with_value(text, table, key, |old| {
         let old = old.and_then(Value::as_array).cloned().unwrap_or_default();
         let mut new = Array::new();
-        for word in words {
-            match old.iter().find(|value| value.as_str() == Some(word)) {
+        for entry in entries {
+            match old.iter().find(|value| value.as_str() == Some(entry)) {
                 Some(known) => new.push_formatted(known.clone()),
-                None => new.push(word.as_str()),
+                None => new.push(entry.as_str()),
             }
         }
         new.set_trailing(old.trailing().clone());

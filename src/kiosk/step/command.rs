@@ -47,7 +47,7 @@ pub struct Batch {
     /// Sound that staff want to hear.
     pub audition: Option<Audition>,
     /// Speech to play.
-    pub words: Option<Words>,
+    pub speech: Option<Words>,
     /// All requested changes of the loudness.
     pub loudness: VolumeRequests,
 }
@@ -62,8 +62,8 @@ impl Batch {
             KioskCommand::Lift(lift) => self.lifts.push(lift),
             KioskCommand::Simulation(command) => self.commands.push(command),
             KioskCommand::PlaySound(audition) => self.audition = Some(audition),
-            KioskCommand::PlaySpeech(words) => self.words = Some(words),
-            KioskCommand::Loudness(wishes) => self.loudness.add(wishes),
+            KioskCommand::PlaySpeech(speech) => self.speech = Some(speech),
+            KioskCommand::Loudness(requests) => self.loudness.add(requests),
         }
     }
 }

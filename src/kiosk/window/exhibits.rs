@@ -29,9 +29,9 @@ impl App<'_> {
                 self.fleet.record_reload(false, None);
                 self.say(format!("{}\nThe last valid exhibit stays on show.", report.trim_end()));
             }
-            CatalogEvent::Listed(work) => {
-                self.exhibits.thumbnails.retain(|(id, _)| *id != work.id);
-                self.exhibits.offer.insert(*work);
+            CatalogEvent::Listed(exhibit) => {
+                self.exhibits.thumbnails.retain(|(id, _)| *id != exhibit.id);
+                self.exhibits.offer.insert(*exhibit);
             }
             CatalogEvent::Rejected(id, report) => {
                 self.exhibits.offer.remove(&id);

@@ -121,7 +121,7 @@ impl App<'_> {
         let breathes = frame.current.breath.estimate.speed > 0.0;
         self.overlays.menu.closes_s = config.visit.page_closes_s;
         self.overlays.menu.update(vitals.time, visitor.activity(), breathes);
-        let exhibit_ids: Vec<String> = self.exhibits.offer.entries().iter().map(|work| work.id.clone()).collect();
+        let exhibit_ids: Vec<String> = self.exhibits.offer.entries().iter().map(|exhibit| exhibit.id.clone()).collect();
         let exhibit_ids: Vec<&str> = exhibit_ids.iter().map(String::as_str).collect();
         let mut actions = Vec::new();
         let mut points = egui::Rect::NOTHING;
@@ -249,7 +249,7 @@ impl Overlays {
             sound: SoundState {
                 captions: &frame.captions,
                 is_muted: silent,
-                reads_aloud: self.aloud.can_speak(language).then_some(self.aloud.is_on()).filter(|_| !silent),
+                reads_aloud: self.read_aloud.can_speak(language).then_some(self.read_aloud.is_on()).filter(|_| !silent),
                 has_volume_control: config.volume.steps > 0 && !frame.load.loudness.muted,
             },
             seconds_blown: visit.breath_time.of(&frame.exhibit.id),
@@ -265,7 +265,7 @@ impl Overlays {
             points_per_mm: picture.points_per_mm,
         };
         if let Some(rate) = visit::rate(frame).filter(|_| scene.sound.reads_aloud.is_some()) {
-            self.aloud.start_requested(&scene, rate);
+            self.read_aloud.start_requested(&scene, rate);
         }
         let painter = ui.ctx().layer_painter(egui::LayerId::background());
         self.buttons = self.overlay.paint(&painter, ui.ctx().content_rect(), &mut self.menu, &scene);

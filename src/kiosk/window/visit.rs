@@ -14,8 +14,8 @@ use soffio_devices::audio::{DeviceState, Words};
 impl App<'_> {
     /// Updates reading aloud and swipes, once a frame.
     pub(super) fn update_visit(&mut self, frame: &LiveState) {
-        self.overlays.aloud.configure(&self.setup.config.visit.read_aloud);
-        let made = self.overlays.aloud.update(frame.speaks);
+        self.overlays.read_aloud.configure(&self.setup.config.visit.read_aloud);
+        let made = self.overlays.read_aloud.update(frame.speaks);
         self.play_speech(made);
         // A visitor who listens is present.
         if frame.speaks {
@@ -24,11 +24,11 @@ impl App<'_> {
         }
         // A breath ends the reading.
         if frame.current.breath.estimate.speed > 0.0 {
-            let silence = self.overlays.aloud.stop();
+            let silence = self.overlays.read_aloud.stop();
             self.play_speech(silence);
         }
         if frame.attracts || !self.venue.is_open() {
-            let silence = self.overlays.aloud.end_visit();
+            let silence = self.overlays.read_aloud.end_visit();
             self.play_speech(silence);
         }
         match self.exhibits.swiped(frame.swipes) {
@@ -78,7 +78,7 @@ impl App<'_> {
             request => request,
         };
         if (touches || types) && !keeps_reading(means) {
-            let silence = self.overlays.aloud.stop();
+            let silence = self.overlays.read_aloud.stop();
             self.play_speech(silence);
         }
     }
@@ -96,7 +96,7 @@ impl App<'_> {
                 self.visit.visitor.release_all();
             }
             Request::ReadAloud => {
-                let silence = self.overlays.aloud.toggle();
+                let silence = self.overlays.read_aloud.toggle();
                 self.play_speech(silence);
             }
             _ => {}

@@ -11,7 +11,7 @@ use soffio_devices::audio::Heard;
 /// Input of the microphone.
 pub(super) struct MicrophoneInput {
     /// Samples since the last steps.
-    pub heard: Heard,
+    pub samples_read: Heard,
     /// Has the visitor switched the microphone off?
     pub ignore_microphone: bool,
     /// Is the venue closed?
@@ -24,7 +24,7 @@ impl MicrophoneInput {
     /// Without any samples.
     pub(super) fn new(closed: bool) -> Self {
         Self {
-            heard: Heard::default(),
+            samples_read: Heard::default(),
             ignore_microphone: false,
             closed,
             self_test: SelfTestRun::default(),
@@ -41,7 +41,7 @@ impl MicrophoneInput {
     /// a self-test is running.
     pub(super) fn read(&mut self, breath: bool, playback: &mut Playback, load: &mut RunStatus) -> (Option<u32>, bool) {
         playback.audio.listen(breath && !self.closed || self.self_test.is_running());
-        let rate = playback.audio.read_microphone(&mut self.heard);
+        let rate = playback.audio.read_microphone(&mut self.samples_read);
         let is_testing = self.update_self_test(rate, playback, load);
         // Samples are read and dropped even while the microphone is ignored.
         (rate.filter(|_| !self.ignore_microphone && !is_testing), is_testing)
@@ -53,8 +53,8 @@ impl MicrophoneInput {
             return false;
         }
         let now = self.began.elapsed().as_secs_f64();
-        match self.self_test.update(now, &playback.audio.status(), (&self.heard.samples, rate)) {
-            Some(SelfTestAction::PlaySweep(words)) => playback.audio.say(&words),
+        match self.self_test.update(now, &playback.audio.status(), (&self.samples_read.samples, rate)) {
+            Some(SelfTestAction::PlaySweep(speech)) => playback.audio.say(&speech),
             Some(SelfTestAction::Done(outcome)) => {
                 load.self_test = (load.self_test.0 + 1, Some(Arc::new(outcome)));
                 // The volume is again set by hours and visitor.

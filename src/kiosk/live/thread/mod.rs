@@ -104,7 +104,7 @@ impl Thread {
             (controls, batch, inbox.dropped())
         };
         self.publisher.record_dropped(dropped);
-        let Batch { site, exhibit, self_test, lifts, commands, audition, words, loudness } = batch;
+        let Batch { site, exhibit, self_test, lifts, commands, audition, speech, loudness } = batch;
         if let Some(site) = site {
             self.reconfigure(*site);
         }
@@ -114,7 +114,7 @@ impl Thread {
         add_controllers(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
         lifts.into_iter().for_each(|lift| self.stage.lift(lift));
         commands.into_iter().for_each(|command| self.stage.command(command));
-        self.microphone.heard.clear();
+        self.microphone.samples_read.clear();
         self.microphone.closed = controls.closed;
         if self_test && self.site.breath {
             self.microphone.begin_self_test();
@@ -124,7 +124,7 @@ impl Thread {
         self.playback.sounds.clear();
         let before = Instant::now();
         for i in 0..due {
-            let samples = rate.map(|sample_rate| self.microphone.heard.share(i, due, sample_rate));
+            let samples = rate.map(|sample_rate| self.microphone.samples_read.share(i, due, sample_rate));
             controls.mode = self.motion.mode();
             let worked = ThreadTime::now();
             self.stage.step(&controls, samples);
@@ -143,8 +143,8 @@ impl Thread {
         self.publisher.record_time(before, due);
         self.playback.play_audition(audition, &self.stage);
         self.playback.send(&self.stage);
-        if let Some(words) = words {
-            self.playback.audio.say(&words);
+        if let Some(speech) = speech {
+            self.playback.audio.say(&speech);
         }
         let self_test_db = is_testing.then_some(self.site.audio.volume_db);
         self.playback.set_loudness(loudness, (self.stage.attracts(), controls.closed), self_test_db);

@@ -101,11 +101,11 @@ impl Playback {
     /// Updates the loudness; a self-test plays at the configured volume, dB.
     pub(super) fn set_loudness(
         &mut self,
-        wishes: VolumeRequests,
+        requests: VolumeRequests,
         (attracts, closed): (bool, bool),
         self_test_db: Option<f64>,
     ) {
-        self.loudness.update(wishes, (attracts, closed), self.audio.knobs());
+        self.loudness.update(requests, (attracts, closed), self.audio.knobs());
         if let Some(volume_db) = self_test_db {
             self.audio.knobs().set_volume(db_to_amplitude(volume_db) as f32);
         }

@@ -2,7 +2,7 @@
 
 use egui::{Grid, Ui};
 
-use super::plot::Course;
+use super::plot::TimeSeries;
 use super::style::{BAD, ROW};
 use crate::pages::ui_strings::TextId;
 use crate::staff::panel_input::PanelInput;
@@ -24,11 +24,11 @@ const COLUMNS: [TextId; 5] = [
 #[derive(Debug, Default)]
 pub struct Bodies {
     exhibit: String,
-    energy: Course,
-    worst: Course,
+    energy: TimeSeries,
+    worst: TimeSeries,
     /// The joint whose own course is shown, and the course.
     picked: Option<usize>,
-    own: Course,
+    own: TimeSeries,
 }
 
 impl Bodies {
@@ -61,7 +61,7 @@ impl Bodies {
                 let unit = if joint.angle { "rad" } else { "m" };
                 if ui.selectable_label(self.picked == Some(index), &constraint.name).clicked() {
                     self.picked = (self.picked != Some(index)).then_some(index);
-                    self.own = Course::default();
+                    self.own = TimeSeries::default();
                 }
                 let error = egui::RichText::new(format!("{:9.2e} {unit}", joint.error)).monospace();
                 ui.label(if joint.error > OPEN { error.color(BAD) } else { error });

@@ -35,20 +35,20 @@ impl ExhibitSelection {
     /// Requests the exhibit `by` places after the one in the folder `shown`; returns whether there is another.
     pub fn show_neighbour(&self, shown: &Path, by: i32) -> bool {
         let next = self.offer.neighbour(&id(shown), by as isize);
-        next.inspect(|work| self.loader.show(&work.folder)).is_some()
+        next.inspect(|exhibit| self.loader.show(&exhibit.folder)).is_some()
     }
 
     /// Requests the exhibit at this index.
     pub fn show_at(&self, index: usize) {
-        if let Some(work) = self.offer.entries().get(index) {
-            self.loader.show(&work.folder);
+        if let Some(exhibit) = self.offer.entries().get(index) {
+            self.loader.show(&exhibit.folder);
         }
     }
 
     /// Requests an exhibit by its id; returns whether it is offered.
     pub fn show(&self, id: &str) -> bool {
-        let work = self.offer.entries().iter().find(|work| work.id == id);
-        work.inspect(|work| self.loader.show(&work.folder)).is_some()
+        let exhibit = self.offer.entries().iter().find(|exhibit| exhibit.id == id);
+        exhibit.inspect(|exhibit| self.loader.show(&exhibit.folder)).is_some()
     }
 
     /// New swipes since the last call; `swipes` is the count so far.
@@ -62,7 +62,7 @@ impl ExhibitSelection {
         self.offer.reorder(&site.show);
         let places = ExhibitSource::All { folder: site.folder.clone(), show: site.show.clone() };
         for folder in folders(&places) {
-            if !self.offer.entries().iter().any(|work| work.id == id(&folder)) {
+            if !self.offer.entries().iter().any(|exhibit| exhibit.id == id(&folder)) {
                 self.loader.load(&folder);
             }
         }

@@ -16,7 +16,7 @@ const INVITES_S: f64 = 6.0;
 pub(crate) struct Overlays {
     pub overlay: Overlay,
     pub menu: Menu,
-    pub aloud: ReadAloud,
+    pub read_aloud: ReadAloud,
     pub languages: Languages,
     /// The kiosk's own texts.
     pub translations: Translations,
@@ -30,7 +30,7 @@ impl Overlays {
         Self {
             overlay: Overlay::default(),
             menu: Menu::default(),
-            aloud: ReadAloud::default(),
+            read_aloud: ReadAloud::default(),
             languages: Languages::new(&translations),
             translations,
             buttons: Vec::new(),
@@ -50,7 +50,7 @@ impl Overlays {
     /// Moves the focus to the next button in a direction, right and down.
     pub fn move_focus(&mut self, direction: [i32; 2]) {
         self.menu.move_focus(direction, &self.buttons);
-        self.aloud.announce_focus(self.menu.focused(&self.buttons));
+        self.read_aloud.announce_focus(self.menu.focused(&self.buttons));
     }
 }
 
