@@ -57,12 +57,12 @@ pub fn explain(exhibit: &Exhibit) -> String {
 fn explain_body(exhibit: &Exhibit, body: usize) -> String {
     let name = &exhibit.bodies[body].name;
     let mut of = vec![format!("body {name}")];
-    for constraint in exhibit.constraints.iter().filter(|c| c.kind.touches(body)) {
+    for constraint in exhibit.constraints.iter().filter(|c| c.kind.acts_on(body)) {
         of.extend([constraint.group(), &constraint.name].map(|name| format!("constraint {name}")));
     }
-    let limits = exhibit.limits.iter().filter(|l| l.kind.touches(body));
+    let limits = exhibit.limits.iter().filter(|l| l.kind.acts_on(body));
     of.extend(limits.flat_map(|l| [format!("constraint {}", l.name), format!("limit {}", l.name)]));
-    let springs = exhibit.springs.iter().filter(|s| s.kind.touches(body));
+    let springs = exhibit.springs.iter().filter(|s| s.kind.acts_on(body));
     of.extend(springs.map(|s| format!("spring {}", s.name)));
     of.extend(exhibit.colliders.iter().filter(|c| c.body == Some(body)).map(|c| format!("collider {}", c.node)));
     of.extend(exhibit.wind_surfaces.iter().filter(|s| s.body == body).map(|s| format!("wind surface {}", s.node)));

@@ -24,7 +24,7 @@ impl Context<'_> {
                 return None;
             }
         };
-        let held = |c: &Constraint| c.slips.filter(|_| c.kind.touches(hand));
+        let held = |c: &Constraint| c.slips.filter(|_| c.kind.acts_on(hand));
         let Some(friction) = constraints.iter().find_map(held) else {
             let message = format!("the hand \"{}\" has no clutch, so it cannot be set", given.hand);
             let help = "join it to its arbor by a [[constraint.clutch]] with a torque";

@@ -233,7 +233,7 @@ pub struct Spring {
     /// What it acts on.
     pub kind: SpringKind,
     /// Length (m) or angle (rad) at which the spring is relaxed.
-    pub rest: Function,
+    pub rest_length: Function,
     /// N/m or N m/rad.
     pub stiffness: Function,
     /// N s/m or N m s/rad.
@@ -273,7 +273,7 @@ impl Measure {
 
 impl ConstraintKind {
     /// Does it act on this body?
-    pub fn touches(&self, body: usize) -> bool {
+    pub fn acts_on(&self, body: usize) -> bool {
         let either = |(a, b): (Option<usize>, Option<usize>)| a == Some(body) || b == Some(body);
         match self {
             Self::PointToPoint { a, b } => either((a.body, b.body)),
@@ -296,7 +296,7 @@ impl LimitKind {
     }
 
     /// Does it act on this body?
-    pub fn touches(&self, body: usize) -> bool {
+    pub fn acts_on(&self, body: usize) -> bool {
         let either = |(a, b): (Option<usize>, Option<usize>)| a == Some(body) || b == Some(body);
         match self {
             Self::Tilt { a, b, .. } => either((a.body, b.body)),
@@ -309,7 +309,7 @@ impl LimitKind {
 
 impl SpringKind {
     /// Does it act on this body?
-    pub fn touches(&self, body: usize) -> bool {
+    pub fn acts_on(&self, body: usize) -> bool {
         let (a, b) = match self {
             Self::Linear { a, b } => (a.body, b.body),
             Self::Angular { measure } => measure.bodies(),

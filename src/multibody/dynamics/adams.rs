@@ -21,7 +21,7 @@
 //! estimate finds all other disturbances.
 
 use super::equations::Equations;
-use super::lane_kernels::{LaneKernel, accelerations, put, quad, run_kernel};
+use super::lane_kernels::{LaneKernel, accelerations, lane_block, put, run_kernel};
 use super::substep_state::{DIFFERENCES, ORDER, SLOWEST, SubstepState, difference, norm};
 use crate::articulation::System;
 use crate::articulation::lane_blocks::State;
@@ -169,8 +169,8 @@ struct Predict<'a> {
 impl LaneKernel for Predict<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, _) = quad(system, index);
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, _) = lane_block(system, index);
+        let a = accelerations(lanes, system, &block_bodies);
         let substep = &mut self.states[index];
         substep.start_acceleration.put(lanes, &a);
         let (start, h) = (substep.start.get(lanes), self.h);
@@ -199,9 +199,9 @@ struct Correct<'a> {
 impl LaneKernel for Correct<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, block) = lane_block(system, index);
+        let (mass, inertia) = (lanes.get(&block.mass), block.inertia.get(lanes));
+        let a = accelerations(lanes, system, &block_bodies);
         let substep = &self.states[index];
         let (start, h) = (substep.start.get(lanes), self.h);
         let [d, dd, ddd] = differences(lanes, substep, self.indices);
@@ -228,7 +228,7 @@ impl LaneKernel for Correct<'_> {
         self.states[index].differences[self.index].put(lanes, &first);
         put(lanes, system, index, &state);
         let norms = &mut *self.norms;
-        lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
+        lanes.scatter(block_bodies.count, &[error, scale], |lane, norm| norms[block_bodies.bodies[lane]] = *norm);
     }
 }
 

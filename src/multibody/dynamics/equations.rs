@@ -89,7 +89,12 @@ impl Equations {
             [Four(damping.map(|rate| rate.linear)), Four(damping.map(|rate| rate.angular))]
         };
         Self {
-            damping: system.lane_blocks().block_bodies().iter().map(|members| of_bodies(members.bodies)).collect(),
+            damping: system
+                .lane_blocks()
+                .block_bodies()
+                .iter()
+                .map(|block_bodies| of_bodies(block_bodies.bodies))
+                .collect(),
             kinematic_accelerations: kinematic_bodies.iter().map(|kinematic| (kinematic.body, [0.0; 6])).collect(),
             wrenches: Wrenches::new(damping.len()),
             system,
@@ -104,8 +109,8 @@ impl Equations {
 
     /// Damping rates of a body.
     pub fn damping(&self, body: usize) -> Damping {
-        let slot = self.system.lane_blocks().body_lane(body);
-        let [linear, angular] = self.damping[slot.lane_block].each_ref().map(|rate| rate.0[slot.lane]);
+        let place = self.system.lane_blocks().body_lane(body);
+        let [linear, angular] = self.damping[place.lane_block].each_ref().map(|rate| rate.0[place.lane]);
         Damping { linear, angular }
     }
 

@@ -128,7 +128,7 @@ impl Springs {
     pub fn set_asleep(&mut self, asleep: &[bool]) {
         let Self { springs, acting, .. } = self;
         let sleeps =
-            |spring: &Spring| asleep.iter().enumerate().any(|(body, asleep)| *asleep && spring.kind.touches(body));
+            |spring: &Spring| asleep.iter().enumerate().any(|(body, asleep)| *asleep && spring.kind.acts_on(body));
         acting.clear();
         acting.extend((0..springs.len()).filter(|&spring| !sleeps(&springs[spring])));
     }
@@ -180,7 +180,7 @@ impl Springs {
         (0..self.springs.len())
             .map(|index| {
                 let spring = &self.springs[index];
-                let stretch = self.state(index, bodies, &frames).value - spring.rest.at(t).value;
+                let stretch = self.state(index, bodies, &frames).value - spring.rest_length.at(t).value;
                 0.5 * self.activity.activation(index) * spring.stiffness.at(t).value * stretch * stretch
             })
             .sum()
@@ -195,9 +195,9 @@ impl Springs {
     /// Force (N) or torque (N m) that shortens a spring, and its state.
     fn force(&self, index: usize, bodies: &[RigidBody], t: f64) -> (f64, SpringState) {
         let (spring, state) = (&self.springs[index], self.state(index, bodies, &self.frames));
-        let rest = spring.rest.at(t);
-        let pull = spring.stiffness.at(t).value * (state.value - rest.value)
-            + spring.damping.at(t).value * (state.rate - rest.rate);
+        let rest_length = spring.rest_length.at(t);
+        let pull = spring.stiffness.at(t).value * (state.value - rest_length.value)
+            + spring.damping.at(t).value * (state.rate - rest_length.rate);
         (self.activity.activation(index) * pull, state)
     }
 

@@ -37,15 +37,15 @@ fn run_kernel_in<S: Simd>(simd: S, system: &mut System, kernel: &mut impl LaneKe
 
 /// A lane block, and which bodies it holds.
 #[inline(always)]
-pub(super) fn quad(system: &System, index: usize) -> (BlockBodies, &LaneBlock) {
-    let quads = system.lane_blocks();
-    (quads.block_bodies()[index], &quads.all()[index])
+pub(super) fn lane_block(system: &System, index: usize) -> (BlockBodies, &LaneBlock) {
+    let lane_blocks = system.lane_blocks();
+    (lane_blocks.block_bodies()[index], &lane_blocks.all()[index])
 }
 
 /// The last accelerations of a block.
 #[inline(always)]
-pub(super) fn accelerations<L: Lanes>(lanes: L, system: &System, members: &BlockBodies) -> SpatialVector<L::T> {
-    SpatialVector::gather(lanes, |k| &system.a[members.bodies[k]])
+pub(super) fn accelerations<L: Lanes>(lanes: L, system: &System, block_bodies: &BlockBodies) -> SpatialVector<L::T> {
+    SpatialVector::gather(lanes, |k| &system.a[block_bodies.bodies[k]])
 }
 
 /// Sets the state of a block.
@@ -63,8 +63,8 @@ pub(super) struct Save<'a> {
 impl LaneKernel for Save<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, _) = quad(system, index);
-        let state = State::of(lanes, |k| &self.bodies[members.bodies[k]]);
+        let (block_bodies, _) = lane_block(system, index);
+        let state = State::of(lanes, |k| &self.bodies[block_bodies.bodies[k]]);
         self.states[index].start.set(lanes, &state);
     }
 }
@@ -78,9 +78,9 @@ pub(super) struct Restore<'a> {
 impl LaneKernel for Restore<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, _) = quad(system, index);
+        let (block_bodies, _) = lane_block(system, index);
         let state = self.states[index].start.get(lanes);
-        state.put(lanes, &members, self.bodies);
+        state.put(lanes, &block_bodies, self.bodies);
     }
 }
 
@@ -92,9 +92,9 @@ pub(super) struct WriteBack<'a> {
 impl LaneKernel for WriteBack<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let state = quad.state.get(lanes);
-        state.put(lanes, &members, self.bodies);
+        let (block_bodies, block) = lane_block(system, index);
+        let state = block.state.get(lanes);
+        state.put(lanes, &block_bodies, self.bodies);
     }
 }
 
@@ -106,15 +106,15 @@ pub(super) struct AddVelocityChange<'a> {
 impl LaneKernel for AddVelocityChange<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let by = accelerations(lanes, system, &members);
-        let mut state = quad.state.get(lanes);
+        let (block_bodies, block) = lane_block(system, index);
+        let by = accelerations(lanes, system, &block_bodies);
+        let mut state = block.state.get(lanes);
         state.velocity += by.linear;
         state.spin += by.angular;
-        state.put(lanes, &members, self.bodies);
-        let quad = &mut system.lane_blocks_mut().all_mut()[index].state;
-        quad.velocity.put(lanes, state.velocity);
-        quad.spin.put(lanes, state.spin);
+        state.put(lanes, &block_bodies, self.bodies);
+        let block = &mut system.lane_blocks_mut().all_mut()[index].state;
+        block.velocity.put(lanes, state.velocity);
+        block.spin.put(lanes, state.spin);
     }
 }
 
@@ -130,8 +130,8 @@ pub(super) struct Stage<'a> {
 impl LaneKernel for Stage<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, block) = lane_block(system, index);
+        let a = accelerations(lanes, system, &block_bodies);
         let substep = &self.states[index];
         let start = substep.start.get(lanes);
         let (rate, mut mean) = if self.first {
@@ -141,7 +141,7 @@ impl LaneKernel for Stage<'_> {
                 Rate { velocity: none, sigma: none, acceleration: SpatialVector { linear: none, angular: none } };
             (Rate::of(start.velocity, start.spin, none, a), mean)
         } else {
-            let (velocity, spin) = (quad.state.velocity.get(lanes), quad.state.spin.get(lanes));
+            let (velocity, spin) = (block.state.velocity.get(lanes), block.state.spin.get(lanes));
             (Rate::of(velocity, spin, substep.sigma.get(lanes), a), substep.mean.get(lanes))
         };
         mean.add(self.weight, &rate);
@@ -167,10 +167,10 @@ pub(super) struct Last<'a> {
 impl LaneKernel for Last<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, block) = lane_block(system, index);
+        let a = accelerations(lanes, system, &block_bodies);
         let substep = &self.states[index];
-        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), substep.sigma.get(lanes), a);
+        let rate = Rate::of(block.state.velocity.get(lanes), block.state.spin.get(lanes), substep.sigma.get(lanes), a);
         let mut mean = substep.mean.get(lanes);
         mean.add(self.weight, &rate);
         let (state, _) = advance(lanes, &substep.start.get(lanes), self.h, &mean);
@@ -196,9 +196,9 @@ pub(super) struct Estimate<'a> {
 impl LaneKernel for Estimate<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let (mass, inertia) = (lanes.get(&quad.mass), quad.inertia.get(lanes));
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, block) = lane_block(system, index);
+        let (mass, inertia) = (lanes.get(&block.mass), block.inertia.get(lanes));
+        let a = accelerations(lanes, system, &block_bodies);
         let substep = &self.states[index];
         let (last, previous) = (substep.last_acceleration.get(lanes), substep.previous_estimate.get(lanes));
         let (per_cube, factor) = (mass.all(self.per_cube), mass.all(self.scale));
@@ -212,7 +212,7 @@ impl LaneKernel for Estimate<'_> {
             change.angular -= previous.angular;
         }
         change = SpatialVector { linear: change.linear * factor, angular: change.angular * factor };
-        let now = SpatialVector { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) };
+        let now = SpatialVector { linear: block.state.velocity.get(lanes), angular: block.state.spin.get(lanes) };
         let error = norm(mass, &inertia, &change);
         let slowest = mass.all(SLOWEST);
         let scale = norm(mass, &inertia, &now) + mass * slowest * slowest;
@@ -221,7 +221,7 @@ impl LaneKernel for Estimate<'_> {
         substep.differences[self.index].put(lanes, &changed);
         substep.previous_estimate.put(lanes, &estimate);
         let norms = &mut *self.norms;
-        lanes.scatter(members.count, &[error, scale], |lane, norm| norms[members.bodies[lane]] = *norm);
+        lanes.scatter(block_bodies.count, &[error, scale], |lane, norm| norms[block_bodies.bodies[lane]] = *norm);
     }
 }
 
@@ -235,20 +235,20 @@ pub(super) struct ApplyForces<'a> {
 impl LaneKernel for ApplyForces<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let external = SpatialVector::gather(lanes, |k| &self.external[members.bodies[k]]);
+        let (block_bodies, block) = lane_block(system, index);
+        let external = SpatialVector::gather(lanes, |k| &self.external[block_bodies.bodies[k]]);
         let [linear, angular] = self.damping[index].each_ref().map(|rate| lanes.get(rate));
         let bodies = BodyLanes {
-            mass: lanes.get(&quad.mass),
-            inertia: quad.inertia.get(lanes),
-            velocity: SpatialVector { linear: quad.state.velocity.get(lanes), angular: quad.state.spin.get(lanes) },
+            mass: lanes.get(&block.mass),
+            inertia: block.inertia.get(lanes),
+            velocity: SpatialVector { linear: block.state.velocity.get(lanes), angular: block.state.spin.get(lanes) },
             linear_damping: linear,
             angular_damping: angular,
         };
         let own = forces::body_wrench(&bodies, self.gravity);
         let total = SpatialVector { linear: own.linear + external.linear, angular: own.angular + external.angular };
         let b = &mut system.b;
-        lanes.scatter(members.count, &total.numbers(), |lane, wrench| b[members.bodies[lane]] = *wrench);
+        lanes.scatter(block_bodies.count, &total.numbers(), |lane, wrench| b[block_bodies.bodies[lane]] = *wrench);
     }
 }
 
@@ -267,8 +267,8 @@ pub(super) struct Guess<'a> {
 impl LaneKernel for Guess<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, _) = quad(system, index);
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, _) = lane_block(system, index);
+        let a = accelerations(lanes, system, &block_bodies);
         let start = self.states[index].start.get(lanes);
         let zero = start.velocity.x.all(0.0);
         let rate = Rate::of(start.velocity, start.spin, V3 { x: zero, y: zero, z: zero }, a);
@@ -319,10 +319,10 @@ pub(super) struct Compare<'a> {
 impl LaneKernel for Compare<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self, lanes: L, system: &mut System, index: usize) {
-        let (members, quad) = quad(system, index);
-        let a = accelerations(lanes, system, &members);
+        let (block_bodies, block) = lane_block(system, index);
+        let a = accelerations(lanes, system, &block_bodies);
         let sigma = self.states[index].sigma.get(lanes);
-        let rate = Rate::of(quad.state.velocity.get(lanes), quad.state.spin.get(lanes), sigma, a);
+        let rate = Rate::of(block.state.velocity.get(lanes), block.state.spin.get(lanes), sigma, a);
         let old = self.stages[self.stage][index].get(lanes);
         let (linear, angular) = (a.linear - old.acceleration.linear, a.angular - old.acceleration.angular);
         let sigma_change = rate.sigma - old.sigma;
@@ -330,6 +330,6 @@ impl LaneKernel for Compare<'_> {
         let size = a.linear.dot(a.linear) + a.angular.dot(a.angular) + rate.sigma.dot(rate.sigma);
         self.stages[self.stage][index].set(lanes, &rate);
         let norms = &mut *self.norms;
-        lanes.scatter(members.count, &[change, size], |lane, norm| norms[members.bodies[lane]] = *norm);
+        lanes.scatter(block_bodies.count, &[change, size], |lane, norm| norms[block_bodies.bodies[lane]] = *norm);
     }
 }

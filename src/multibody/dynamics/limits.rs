@@ -135,7 +135,7 @@ impl Limits {
     /// Sets which bodies sleep; their limits are left out.
     pub fn set_asleep(&mut self, asleep: &[bool]) {
         for (sleeps, limit) in self.asleep.iter_mut().zip(&self.limits) {
-            *sleeps = asleep.iter().enumerate().any(|(body, asleep)| *asleep && limit.kind.touches(body));
+            *sleeps = asleep.iter().enumerate().any(|(body, asleep)| *asleep && limit.kind.acts_on(body));
         }
     }
 

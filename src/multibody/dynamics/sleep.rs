@@ -90,14 +90,14 @@ impl Sleep {
                 ConstraintKind::Orientation { angle, .. } => changes(angle),
                 ConstraintKind::PointToPoint { .. } | ConstraintKind::Coupling { .. } => false,
             };
-            connect(&|body| constraint.kind.touches(body), moves);
+            connect(&|body| constraint.kind.acts_on(body), moves);
         }
         for limit in limits {
-            connect(&|body| limit.kind.touches(body), false);
+            connect(&|body| limit.kind.acts_on(body), false);
         }
         for spring in springs {
-            let moves = [&spring.rest, &spring.stiffness, &spring.damping].into_iter().any(changes);
-            connect(&|body| spring.kind.touches(body), moves);
+            let moves = [&spring.rest_length, &spring.stiffness, &spring.damping].into_iter().any(changes);
+            connect(&|body| spring.kind.acts_on(body), moves);
         }
         let inertia = |body: &RigidBody| body.properties.inertia;
         let trace = |body: &RigidBody| inertia(body).x_axis.x + inertia(body).y_axis.y + inertia(body).z_axis.z;

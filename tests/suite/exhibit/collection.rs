@@ -86,7 +86,7 @@ fn the_weak_joint_bears_the_weight_below_it_and_little_more() {
 fn the_windmill_turns_about_its_shaft_and_the_shaft_about_the_mast() {
     let exhibit = shipped("windmill");
     let (head, rotor) = (body(&exhibit, "Head"), body(&exhibit, "Rotor"));
-    let of = |body: usize| exhibit.constraints.iter().filter(|c| c.kind.touches(body)).count();
+    let of = |body: usize| exhibit.constraints.iter().filter(|c| c.kind.acts_on(body)).count();
     assert_eq!((of(head), of(rotor)), (6, 3), "point and two orientations each");
     assert_eq!(exhibit.wind_surfaces.iter().filter(|s| s.body == rotor).count(), 4);
     // Balanced on its mast to within the radius of the bearing, or it would tip.

@@ -69,7 +69,7 @@ impl Context<'_> {
         out.springs.push(Spring {
             name: header.name.to_owned(),
             kind,
-            rest,
+            rest_length: rest,
             stiffness,
             damping,
             schedule: header.schedule.clone(),

@@ -99,9 +99,9 @@ impl Rows {
         let solve_kind = !(general_joints.is_empty() && couplings.is_empty());
         let is_lean = |constraint: usize| !trains.owns(constraint);
         let of_rows = |&body: &usize| {
-            let touches = |constraint: &usize| constraints[*constraint].kind.touches(body);
+            let acts_on = |constraint: &usize| constraints[*constraint].kind.acts_on(body);
             let joints = general_joints[..outside_trains].iter().flat_map(|&joint| &joints[joint].constraints);
-            joints.chain(couplings.iter().map(|c| &c.constraint).filter(|c| is_lean(**c))).any(touches)
+            joints.chain(couplings.iter().map(|c| &c.constraint).filter(|c| is_lean(**c))).any(acts_on)
         };
         let framed = if solve_kind { (0..n).filter(of_rows).collect() } else { Vec::new() };
         let mut states = vec![RowState::default(); count];
@@ -142,7 +142,7 @@ fn always_points(joints: &[Joint], constraints: &[Constraint], method: LinearSol
 fn islands(kinematic: &[bool], constraints: &[Constraint]) -> DisjointSets {
     let mut groups = DisjointSets::new(kinematic.len());
     for constraint in constraints {
-        groups.join_all((0..kinematic.len()).filter(|&body| !kinematic[body] && constraint.kind.touches(body)));
+        groups.join_all((0..kinematic.len()).filter(|&body| !kinematic[body] && constraint.kind.acts_on(body)));
     }
     groups
 }

@@ -33,7 +33,7 @@ impl SleepState {
     pub fn set(&mut self, asleep: &[bool], constraints: &[Constraint], trains: &Trains) {
         self.bodies.copy_from_slice(asleep);
         for (sleeps, constraint) in self.constraints.iter_mut().zip(constraints) {
-            *sleeps = (0..asleep.len()).any(|body| asleep[body] && constraint.kind.touches(body));
+            *sleeps = (0..asleep.len()).any(|body| asleep[body] && constraint.kind.acts_on(body));
         }
         self.tree_bodies.clear();
         self.tree_bodies.extend((0..asleep.len()).filter(|&body| asleep[body] && !trains.has(body)));

@@ -41,8 +41,8 @@ impl IndexRange {
 /// What can come into contact: surfaces, or a joint and the bound of its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ContactSource {
-    /// A pair of colliders, by its index.
-    Pair(usize),
+    /// The surfaces of a pair of colliders, by its index.
+    Surfaces(usize),
     /// A bound of a limit, by its index.
     Limit(usize),
 }
@@ -158,7 +158,7 @@ impl Contact {
     /// The surfaces or bound of a point or limit; `None` for the other kinds.
     pub fn source(&self) -> Option<ContactSource> {
         match self.kind {
-            ContactKind::Point { pair, .. } => Some(ContactSource::Pair(pair)),
+            ContactKind::Point { pair, .. } => Some(ContactSource::Surfaces(pair)),
             ContactKind::Limit { bound } => Some(ContactSource::Limit(bound)),
             _ => None,
         }

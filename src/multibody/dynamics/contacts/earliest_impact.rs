@@ -28,7 +28,7 @@ impl Contacts {
         for index in 0..self.nearby.list.len() {
             let pair = self.nearby.list[index];
             if let Some(TimeOfImpact { s, .. }) = self.time_of_impact(pair, before, after) {
-                self.take_earlier(EarliestImpact { s, source: ContactSource::Pair(pair) }, &mut earliest);
+                self.take_earlier(EarliestImpact { s, source: ContactSource::Surfaces(pair) }, &mut earliest);
             }
         }
         for bound in 0..self.limits.count() {

@@ -187,7 +187,7 @@ impl Contacts {
                 let BoundRow { gap, row, .. } = self.limits.row(bound, bodies);
                 (gap, -row.rate(bodies))
             }
-            ContactSource::Pair(pair) => {
+            ContactSource::Surfaces(pair) => {
                 let manifold = self.surfaces.manifold(pair, bodies);
                 let nearest = |a: ManifoldPoint, b: &ManifoldPoint| if b.gap < a.gap { *b } else { a };
                 let at = manifold.points()[1..].iter().fold(manifold.points[0], nearest);
@@ -202,7 +202,7 @@ impl Contacts {
         self.problem.clear();
         match source {
             ContactSource::Limit(bound) => self.push_bound(bound, bodies),
-            ContactSource::Pair(pair) => {
+            ContactSource::Surfaces(pair) => {
                 // Pairs of the same two bodies are next to each other.
                 let two = self.surfaces.bodies_of(pair);
                 let same = |other: &usize| self.surfaces.bodies_of(*other) == two;
@@ -221,7 +221,7 @@ impl Contacts {
     fn collect_all(&mut self, source: ContactSource, bodies: &[RigidBody]) {
         match source {
             ContactSource::Limit(bound) => self.push_bound(bound, bodies),
-            ContactSource::Pair(pair) => {
+            ContactSource::Surfaces(pair) => {
                 let manifold = self.surfaces.manifold(pair, bodies);
                 for at in manifold.points() {
                     let at = PointGeometry { point: at.point, normal: manifold.normal, gap: at.gap };
@@ -289,14 +289,14 @@ impl Contacts {
     pub(super) fn classify_impact(&mut self, source: ContactSource, time: f64, speed: f64) -> Bounce {
         let now = self.clock + time;
         let last = match source {
-            ContactSource::Pair(pair) => &mut self.resting.last_impact[pair],
+            ContactSource::Surfaces(pair) => &mut self.resting.last_impact[pair],
             ContactSource::Limit(bound) => self.limits.last_impact(bound),
         };
         let chatters = now - *last < CHATTER_TIME && speed < CHATTER_SPEED;
         *last = now;
         let comes_to_rest = speed < REST_SPEED || chatters || self.impacts_left == 0;
         let restitution = match source {
-            ContactSource::Pair(pair) => self.surfaces.pairs[pair].restitution,
+            ContactSource::Surfaces(pair) => self.surfaces.pairs[pair].restitution,
             ContactSource::Limit(bound) => self.limits.restitution(bound),
         };
         self.resting.set(source, comes_to_rest, &mut self.limits);
@@ -309,7 +309,7 @@ impl Contacts {
         let contacts = &self.problem.contacts[contacts.range()];
         let middle = contacts.iter().fold(DVec3::ZERO, |sum, contact| sum + contact.point) / contacts.len() as f64;
         let (bodies, colliders, moving) = match source {
-            ContactSource::Pair(pair) => {
+            ContactSource::Surfaces(pair) => {
                 let at = self.surfaces.pairs[pair].pair;
                 (self.surfaces.bodies_of(pair), Some([at.a, at.b]), ImpactKind::Impact)
             }
@@ -341,7 +341,7 @@ impl Contacts {
                     && self.surfaces.velocity_at(pair, at.point, bodies).dot(manifold.normal) < -REST_SPEED
             };
             if manifold.points().iter().any(approaches) {
-                return Some(ContactSource::Pair(pair));
+                return Some(ContactSource::Surfaces(pair));
             }
         }
         let approaches =

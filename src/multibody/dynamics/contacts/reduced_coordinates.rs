@@ -50,7 +50,7 @@ impl Mechanisms {
         let mut groups = DisjointSets::new(n);
         let mut free = vec![true; n];
         for constraint in constraints {
-            let connected = || (0..n).filter(|&body| !is_kinematic[body] && constraint.kind.touches(body));
+            let connected = || (0..n).filter(|&body| !is_kinematic[body] && constraint.kind.acts_on(body));
             groups.join_all(connected());
             connected().for_each(|body| free[body] = false);
         }

@@ -69,7 +69,7 @@ impl RestingSet {
     /// Sets whether a pair or a bound rests.
     pub fn set(&mut self, source: ContactSource, is_resting: bool, limits: &mut Limits) {
         match source {
-            ContactSource::Pair(pair) => self.set_pair(pair, is_resting),
+            ContactSource::Surfaces(pair) => self.set_pair(pair, is_resting),
             ContactSource::Limit(bound) => self.set_bound(bound, is_resting, limits),
         }
     }

@@ -40,7 +40,7 @@ impl Contacts {
             let pair = self.nearby.list[index];
             let Some(sleeper) = self.sleeping.one_of(self.surfaces.bodies_of(pair)) else { continue };
             let is_closed = |manifold: Manifold| manifold.points().iter().any(|at| at.gap <= CONTACT_MARGIN);
-            if impact.source == ContactSource::Pair(pair)
+            if impact.source == ContactSource::Surfaces(pair)
                 || (self.surfaces.may_touch(pair, bodies) && is_closed(self.surfaces.manifold(pair, bodies)))
             {
                 return Some(sleeper);

@@ -147,7 +147,7 @@ impl Contacts {
             let start = self.problem.contacts.len();
             self.push_impact_points(pair, &toi, after);
             let contacts = IndexRange { start, end: self.problem.contacts.len() };
-            self.pending_impacts.push(PendingImpact::new(ContactSource::Pair(pair), toi.s, contacts));
+            self.pending_impacts.push(PendingImpact::new(ContactSource::Surfaces(pair), toi.s, contacts));
         }
         for bound in 0..self.limits.count() {
             if self.limits.is_resting(bound) || self.limits.is_asleep(bound) {

@@ -257,7 +257,7 @@ impl Writer<'_> {
     fn springs(&mut self) {
         for spring in &self.exhibit.springs {
             let (Function::Constant(rest), Function::Constant(stiffness), Function::Constant(damping)) =
-                (&spring.rest, &spring.stiffness, &spring.damping)
+                (&spring.rest_length, &spring.stiffness, &spring.damping)
             else {
                 self.omit(&spring.name, "a spring that changes with time");
                 continue;

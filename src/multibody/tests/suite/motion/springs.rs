@@ -14,7 +14,7 @@ pub fn spring(kind: SpringKind, stiffness: f64, damping: f64) -> Spring {
     Spring {
         name: "spring".into(),
         kind,
-        rest: Function::default(),
+        rest_length: Function::default(),
         stiffness: stiffness.into(),
         damping: damping.into(),
         schedule: Schedule::default(),
@@ -34,7 +34,7 @@ fn a_slider_on_a_spring_keeps_two_pi_root_m_over_k() {
         let mut world = World::new(vec![body(m, DVec3::splat(1e-3), along * 0.6)]);
         world.slider("slider", 0, None, along);
         let (a, b) = (world.anchor(Some(0), world.bodies[0].position), world.anchor(None, DVec3::ZERO));
-        world.springs.push(Spring { rest: rest_length.into(), ..spring(SpringKind::Linear { a, b }, k, 0.0) });
+        world.springs.push(Spring { rest_length: rest_length.into(), ..spring(SpringKind::Linear { a, b }, k, 0.0) });
         let mut dynamics = world.start(integrator);
         let energy = dynamics.energy();
         let found = period(&mut dynamics, 10.0, DT, |d| {
@@ -59,7 +59,7 @@ fn a_wheel_on_a_torsion_spring_keeps_its_period_through_whole_turns() {
         let measure = Measure::Angle { axis: world.axis(Some(0), DVec3::Z), frame: None };
         // It was wound up by three turns.
         let wound = 6.0 * PI;
-        world.springs.push(Spring { rest: wound.into(), ..spring(SpringKind::Angular { measure }, k, 0.0) });
+        world.springs.push(Spring { rest_length: wound.into(), ..spring(SpringKind::Angular { measure }, k, 0.0) });
         let mut dynamics = world.start(integrator);
         let half = PI * (j / k).sqrt();
         let steps = 480.0;
@@ -151,7 +151,7 @@ fn a_spring_whose_rest_and_stiffness_change_does_as_its_equation_says() {
         let mut world = World::new(vec![body(m, DVec3::splat(1e-3), DVec3::NEG_Y * h)]);
         let (a, b) = (world.anchor(Some(0), world.bodies[0].position), world.anchor(None, DVec3::ZERO));
         let base = spring(SpringKind::Linear { a, b }, 0.0, damping);
-        world.springs.push(Spring { rest: rest_length.clone(), stiffness: stiffness.clone(), ..base });
+        world.springs.push(Spring { rest_length: rest_length.clone(), stiffness: stiffness.clone(), ..base });
         let mut dynamics = world.start(integrator);
         run(&mut dynamics, 2.0, DT);
         let off = (dynamics.bodies[0].position.y + expected[0]).abs();

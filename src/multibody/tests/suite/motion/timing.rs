@@ -109,8 +109,8 @@ fn loaded(growth: f64) -> World {
     world.pin("nail", 0, None, DVec3::ZERO);
     let (a, b) = (world.anchor(Some(0), DVec3::NEG_Y * 0.3), world.anchor(None, DVec3::NEG_Y * 1.3));
     let keys = vec![(0.0, 1.0), (10.0, 1.0 - 10.0 * growth / k)];
-    let rest = Function::Keys { keys, interpolation: Interpolation::Linear, repeat: false };
-    world.springs.push(Spring { rest, ..spring(SpringKind::Linear { a, b }, k, 0.0) });
+    let rest_length = Function::Keys { keys, interpolation: Interpolation::Linear, repeat: false };
+    world.springs.push(Spring { rest_length, ..spring(SpringKind::Linear { a, b }, k, 0.0) });
     world
 }
 
@@ -154,8 +154,8 @@ fn of_equal_links_the_one_that_carries_most_breaks_first() {
         }
         let (a, b) = (world.anchor(Some(3), DVec3::NEG_Y * 0.8), world.anchor(None, DVec3::NEG_Y * 1.8));
         let keys = vec![(0.0, 1.0), (2.0, 0.0)];
-        let rest = Function::Keys { keys, interpolation: Interpolation::Linear, repeat: false };
-        world.springs.push(Spring { rest, ..spring(SpringKind::Linear { a, b }, 10.0, 0.0) });
+        let rest_length = Function::Keys { keys, interpolation: Interpolation::Linear, repeat: false };
+        world.springs.push(Spring { rest_length, ..spring(SpringKind::Linear { a, b }, 10.0, 0.0) });
         let mut dynamics = world.start(integrator);
         let mut broken = Vec::new();
         while broken.is_empty() {
