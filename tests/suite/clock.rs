@@ -510,7 +510,7 @@ fn slip_at_the_hour(share: f64) -> f64 {
         body.pose.rotation = (rotation(DVec3::Z * turn) * body.pose.rotation).normalize();
     }
     let wire = exhibit.springs.iter_mut().find(|spring| spring.name.starts_with("flirt-wire")).expect("a wire");
-    let Function::Constant(rest) = &mut wire.rest else { panic!("{wire:?}") };
+    let Function::Constant(rest) = &mut wire.rest_length else { panic!("{wire:?}") };
     *rest -= LIFTED;
     let mut clock = Clock { exhibit: Arc::new(exhibit), ..Clock::new() };
     clock.dynamics = start_dynamics(&clock.exhibit, &Settings::default());

@@ -390,11 +390,12 @@ fn springs_of_both_kinds_take_functions() {
     let twist = spring("suspension");
     assert!(matches!(twist.kind, SpringKind::Angular { measure: Measure::Angle { .. } }));
     assert!(
-        (twist.stiffness.at(0.0).value - 2e-3).abs() < SINGLE && (twist.rest.at(1.0).value - PI / 2.0).abs() < SINGLE
+        (twist.stiffness.at(0.0).value - 2e-3).abs() < SINGLE
+            && (twist.rest_length.at(1.0).value - PI / 2.0).abs() < SINGLE
     );
     let leaf = spring("leaf");
     // From (0, 0.5, 0) to (0.4, 0.3, 0.2).
-    assert!((leaf.rest.at(3.0).value - 0.24_f64.sqrt()).abs() < SINGLE);
+    assert!((leaf.rest_length.at(3.0).value - 0.24_f64.sqrt()).abs() < SINGLE);
     assert_eq!((leaf.stiffness.at(2.5).value, leaf.damping.at(0.0).value), (16.0, 0.05));
 }
 
