@@ -150,7 +150,7 @@ impl Builder {
         self.joint(JointKind::Hinge, a, b, point, Some(DVec3::Z)).limits = limits;
     }
 
-    /// The scene; its energy is what moves at the start and what can fall to a height of `ground`.
+    /// The scene; its energy is the kinetic energy at the start plus the potential energy above a height of `ground`.
     pub fn finish(mut self, ground: f64) -> PhysicsScene {
         let energy = |(body, state): (&SceneBody, &BodyState)| {
             let spin = state.rotation.conjugate() * state.angular_velocity;
