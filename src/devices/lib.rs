@@ -12,19 +12,19 @@
 //! | [`controllers`] | gamepads, MIDI breath controllers, OSC messages, sensors on a serial line |
 //!
 //! ```no_run
-//! use soffio_devices::audio::{AudioIo, AudioSettings, Heard};
+//! use soffio_devices::audio::{AudioIo, AudioSettings, MicrophoneSamples};
 //! use soffio_sound::Synth;
 //!
 //! // Opens the default devices on a thread of its own; a synthesizer is made for the rate that the loudspeaker has.
 //! let mut io = AudioIo::start(&AudioSettings::default(), Synth::silent);
-//! let mut heard = Heard::default();
+//! let mut samples = MicrophoneSamples::default();
 //! loop {
-//!     match io.read_microphone(&mut heard) {
-//!         Some(rate) => println!("{} samples at {rate} Hz", heard.samples.len()),
+//!     match io.read_microphone(&mut samples) {
+//!         Some(rate) => println!("{} samples at {rate} Hz", samples.samples.len()),
 //!         None => println!("no microphone yet: {:?}", io.status()),
 //!     }
-//!     heard.samples.clear();
-//!     heard.reference.clear();
+//!     samples.samples.clear();
+//!     samples.reference.clear();
 //!     std::thread::sleep(std::time::Duration::from_millis(10));
 //! }
 //! ```

@@ -9,8 +9,8 @@
 use std::sync::Arc;
 
 use super::blocks::{FRAMES, SAMPLE_RATE_HZ};
-use soffio_devices::audio::output::{self, Engine, Player, Workshop};
-use soffio_devices::audio::{Heard, Knobs, ReferenceTap, input};
+use soffio_devices::audio::output::{self, Engine, Player, SynthInstaller};
+use soffio_devices::audio::{Knobs, MicrophoneSamples, ReferenceTap, input};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::instruments::SynthSetup;
@@ -22,8 +22,8 @@ use soffio_sound::{SoundCommand, Volume, WindSound};
 /// An audio output: its callback, and everything that feeds it.
 struct AudioOutput {
     player: Player,
-    voice_sender: output::Voice,
-    workshop: Workshop,
+    voice_sender: output::OutputHandle,
+    workshop: SynthInstaller,
     knobs: Arc<Knobs>,
     /// The current block, stereo.
     played: Vec<f32>,
@@ -52,9 +52,9 @@ pub struct KioskUnderTest {
     /// Commands of a step for the output in still air.
     still_air_commands: Vec<SoundCommand>,
     recorder: input::Recorder,
-    microphone: input::Ears,
+    microphone: input::MicrophoneReader,
     tap: ReferenceTap,
-    received: Heard,
+    received: MicrophoneSamples,
     volume: Volume,
     voice: SynthSetup,
     generation: u64,
@@ -80,7 +80,7 @@ impl KioskUnderTest {
             recorder,
             microphone,
             tap: ReferenceTap::default(),
-            received: Heard::default(),
+            received: MicrophoneSamples::default(),
             volume,
             voice,
             generation: 0,

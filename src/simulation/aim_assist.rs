@@ -65,9 +65,9 @@ impl AimAssist {
         }
     }
 
-    /// Aims the breath of a step. A target is selected sixty times a second, and at once when a breath begins or when a very
-    /// young breath is pointed elsewhere: a visitor who interrupts attract mode blows one step before the script's aim ends,
-    /// and the onset compensation of that breath must not go to the script's target.
+    /// Aims the breath of a step. A target is selected sixty times a second, and at once when a breath begins or when one that is
+    /// still compensated is pointed elsewhere. A visitor who interrupts attract mode blows one step before the script's aim
+    /// ends, and the onset compensation must not act on the script's target.
     pub fn update(&mut self, input: &StepInput, context: &AimContext, wind: &mut WindField) {
         let pointer = input.pointer.unwrap_or(CENTRE);
         let Settings { distance, profile, .. } = *context.settings;

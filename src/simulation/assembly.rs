@@ -108,7 +108,7 @@ impl Assembly {
             }
         };
         let drives: Vec<KinematicBody> = exhibit.drives.iter().map(at_start).collect();
-        let figure = Articulation {
+        let articulation = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,
             constraints: &constraints,
@@ -125,7 +125,7 @@ impl Assembly {
             integrator: exhibit.integrator,
             solver: exhibit.solver,
         };
-        (Self { final_poses, is_kinematic }, Dynamics::new(figure, settings))
+        (Self { final_poses, is_kinematic }, Dynamics::new(articulation, settings))
     }
 
     /// Adds the pull on each body to its wrench (N and N m about its centre of mass).

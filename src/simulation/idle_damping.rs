@@ -60,19 +60,19 @@ impl IdleDamping {
     }
 
     /// r, 1/s.
-    fn rate(&self, calm: IdleDampingSpec) -> f64 {
+    fn rate(&self, settings: IdleDampingSpec) -> f64 {
         let ramp = |since: f64, duration: f64| (since / duration).clamp(0.0, 1.0);
-        let since = self.idle_time - calm.after;
+        let since = self.idle_time - settings.after;
         let growth = 1.0 + (TUNING.growth - 1.0) * ramp(since, TUNING.growth_time);
-        let idle = ramp(since, TUNING.rise) * growth / calm.time;
+        let idle = ramp(since, TUNING.rise) * growth / settings.time;
         let settling =
-            self.settling.map_or(0.0, |since| ramp(since, TUNING.settle_rise) / (TUNING.settle_time * calm.time));
+            self.settling.map_or(0.0, |since| ramp(since, TUNING.settle_rise) / (TUNING.settle_time * settings.time));
         idle.max(settling)
     }
 
     /// Adds the damping of the bodies to the wrenches on them (force, torque about the centre of mass).
-    pub fn apply(&self, calm: IdleDampingSpec, bodies: &[RigidBody], wrenches: &mut [Vec6]) {
-        let rate = self.rate(calm);
+    pub fn apply(&self, settings: IdleDampingSpec, bodies: &[RigidBody], wrenches: &mut [Vec6]) {
+        let rate = self.rate(settings);
         if rate <= 0.0 {
             return;
         }

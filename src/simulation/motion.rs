@@ -90,9 +90,9 @@ impl Motion {
     pub fn apply_idle_damping(&mut self, exhibit: &Exhibit, settings: &Settings, blows: bool) {
         self.idle_damping.advance(blows || self.pointer_grabs.count() > 0, DT);
         let Settings { profile, friction, .. } = *settings;
-        let calm_settings = exhibit.idle_damping.filter(|_| profile == Profile::Gallery && friction);
-        if let Some(calm_settings) = calm_settings {
-            self.idle_damping.apply(calm_settings, &self.dynamics.bodies, &mut self.wrenches);
+        let damping = exhibit.idle_damping.filter(|_| profile == Profile::Gallery && friction);
+        if let Some(damping) = damping {
+            self.idle_damping.apply(damping, &self.dynamics.bodies, &mut self.wrenches);
         }
     }
 

@@ -33,7 +33,7 @@ pub(super) fn start_clock_setting(
 
 /// The exhibit's dynamics at its start, for use without wind, pointers and sound.
 pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
-    let figure = Articulation {
+    let articulation = Articulation {
         bodies: start_bodies(exhibit, settings),
         damping: exhibit
             .bodies
@@ -54,5 +54,5 @@ pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
         integrator: exhibit.integrator,
         solver: exhibit.solver,
     };
-    Dynamics::new(figure, dynamics)
+    Dynamics::new(articulation, dynamics)
 }

@@ -1,14 +1,14 @@
-//! What a hit does to a body: how long it lasts, which partials it reaches, how loud they are.
+//! Excitation of a body by an impact: contact time, spectrum and loudness.
 //!
-//! Symbols: J impulse (N s), v approach speed (m/s), m effective mass of the hit (kg), R radius of the surfaces that
-//! meet (m), E* contact modulus (Pa), τ contact time (s), S face area (m²), M mass of the body (kg), r distance (m).
+//! Symbols of the impact: J impulse (N s), v approach speed (m/s), m effective mass (kg), R radius of the surfaces in contact (m),
+//! E* contact modulus (Pa), τ contact time (s). Of the body: S face area (m²), M mass (kg), r distance (m).
 //!
 //! **Contact** (Hertz; Johnson, "Contact Mechanics", 11.4): τ = 2.87 (m² / (R E*² v))^(1/5), with
-//! 1/E* = 2 (1 − ν²)/E for two bodies of one material. Faster hits are shorter, hence brighter.
+//! 1/E* = 2 (1 − ν²)/E for two bodies of one material. Faster impacts are shorter, hence brighter.
 //!
 //! **Spectrum**: the force is nearly a half sine of area J (`modal/pulse.rs`).
 //!
-//! **Loudness**: an ideal blow at x sets mass-normalised mode k moving at q̇ = J φ_k(x), which is √(q̇²/M) as root mean
+//! **Loudness**: an ideal impulse at x sets mass-normalised mode k moving at q̇ = J φ_k(x), which is √(q̇²/M) as root mean
 //! square over the face. Radiating ρ₀ c S σ v² as a point source in all directions gives the pressure amplitude
 //! p = ρ₀ c √(S σ / 4π) v / r, with σ the radiation efficiency. The same energy balance damps the
 //! mode by c = ρ₀ c S σ / 2M.
@@ -31,7 +31,7 @@ pub(super) const FULL_SCALE_PRESSURE: f64 = 1.0;
 const SHORTEST_CONTACT: f64 = 2e-5;
 pub(super) const LONGEST_CONTACT: f64 = 2e-2;
 
-/// The surfaces that meet.
+/// Surfaces in contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
     /// R, m.
@@ -54,7 +54,7 @@ impl Contact {
     }
 }
 
-/// A vibrating face that radiates into the room.
+/// Radiation of a vibrating face.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Radiator {
     /// Radius of the circle of the same area, m.

@@ -1,4 +1,4 @@
-//! A sounding body, compiled: its timbre as a graph, its partials with everything about them that no hit can change.
+//! A compiled instrument: the graph of its timbre, and its partials with all that does not depend on an impact.
 
 use fearless_simd::Level;
 
@@ -12,8 +12,8 @@ use super::{InstrumentSpec, Strike, timbre};
 use soffio_math::noise::Random;
 use soffio_math::{exp, ln};
 
-/// Nothing that is struck is lighter, kg.
-const LIGHTEST: f64 = 1e-6;
+/// Least mass of a body, kg.
+const MIN_MASS: f64 = 1e-6;
 
 /// A compiled instrument.
 pub(super) struct Instrument {
@@ -26,7 +26,16 @@ pub(super) struct Instrument {
     modal: Option<Modal>,
 }
 
-/// The ringing part of an instrument.
+/// How the point of a driving force moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DriveMove {
+    /// At once.
+    Jump,
+    /// Over the next block.
+    Glide,
+}
+
+/// The modal part of an instrument.
 struct Modal {
     contact: Contact,
     /// Cents.
@@ -61,7 +70,7 @@ impl Instrument {
         })
     }
 
-    /// Whether hits play it, one by one.
+    /// Whether impacts play it.
     pub fn is_hit(&self) -> bool {
         self.player == Player::Hit
     }
@@ -71,7 +80,7 @@ impl Instrument {
         self.modal.as_ref().map_or(1e-3, |modal| modal.contact.time(mass, speed))
     }
 
-    /// What a hit tells the graph.
+    /// Inputs of the graph for an impact.
     pub fn inputs(&self, strike: &Strike) -> Inputs {
         let (mass, speed) = (f64::from(strike.mass), f64::from(strike.speed));
         let rigid_pressure = self.radiator.rigid_pressure(f64::from(strike.impulse));
@@ -101,16 +110,16 @@ impl Instrument {
     }
 
     /// A hit on a bank of [`Self::bank`]; the rest as [`Bank::strike`]. Real-time: bounded by the number of partials.
-    pub fn strike(&self, bank: &mut Bank, inputs: &Inputs, since: usize, ahead: &mut [f32]) -> Option<usize> {
+    pub fn strike(&self, bank: &mut Bank, inputs: &Inputs, since: usize, look_ahead: &mut [f32]) -> Option<usize> {
         let modal = self.modal.as_ref()?;
         let place = Place::new(inputs.position, modal.outline);
         let level = inputs.impulse * modal.gain.at(inputs);
         let amplitude = |i: usize| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place);
-        bank.strike(amplitude, inputs.contact_time, since, ahead)
+        bank.strike(amplitude, inputs.contact_time, since, look_ahead)
     }
 
-    /// Something of `resistance` N s/m rests on the body: a dashpot takes c = R φ²/2 from each partial.
-    pub fn touch(&self, bank: &mut Bank, position: [f64; 2], resistance: f64) {
+    /// Damps the bank by a contact of `resistance` R, N s/m: a dashpot adds the decay c = R φ²/2 to each partial.
+    pub fn damp(&self, bank: &mut Bank, position: [f64; 2], resistance: f64) {
         let Some(modal) = &self.modal else { return };
         let place = Place::new(position, modal.outline);
         bank.damp(|i| {
@@ -119,24 +128,27 @@ impl Instrument {
         });
     }
 
-    /// Where a force in N acts on the body from now on; one that `moves` goes there over the next block.
-    pub fn push_at(&self, bank: &mut Bank, inputs: &Inputs, moves: bool, sample_rate: f64) {
+    /// Moves the point where a force in N acts on the body.
+    pub fn set_drive_point(&self, bank: &mut Bank, inputs: &Inputs, step: DriveMove, sample_rate: f64) {
         let Some(modal) = &self.modal else { return };
         let place = Place::new(inputs.position, modal.outline);
         // A force of 1 N gives an impulse of 1/fs per sample.
         let level = modal.gain.at(inputs) / sample_rate;
         let gain = |i: usize| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place);
-        if moves { bank.push_towards(gain) } else { bank.push_at(gain) }
+        match step {
+            DriveMove::Jump => bank.set_drive_point(gain),
+            DriveMove::Glide => bank.glide_drive_point(gain),
+        }
     }
 }
 
 /// The partials of a timbre on a body, in ascending order; none where nothing rings.
 pub fn partials(preset: &Preset, spec: &InstrumentSpec) -> Result<Vec<Mode>, TimbreError> {
-    let found = preset
+    let modes_and_outline = preset
         .modal()
         .map(|(key, node)| Modal::modes(&preset.name, key, node, spec, &mut Shared::default()))
         .transpose()?;
-    Ok(found.map(|(modes, _)| modes).unwrap_or_default())
+    Ok(modes_and_outline.map(|(modes, _)| modes).unwrap_or_default())
 }
 
 impl Modal {
@@ -150,7 +162,7 @@ impl Modal {
         let (mut modes, outline) = Self::modes(name, key, node, spec, shared)?;
         modes.sort_by(|a, b| a.decay.total_cmp(&b.decay));
         let contact = Contact::new(node.contact_radius, node.surface_modulus, &spec.material);
-        let mass = spec.body.mass.max(LIGHTEST);
+        let mass = spec.body.mass.max(MIN_MASS);
         Ok(Self { contact, detune: node.detune, gain: node.gain, modes, outline, mass })
     }
 

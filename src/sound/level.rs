@@ -1,4 +1,4 @@
-//! How loud it is, as an ear takes it: the A-weighted level, and its mean over a day.
+//! A-weighted level, and its mean over a day (LAeq).
 //!
 //! The weighting is that of IEC 61672-1: zeros at 0, poles at 20.6 (two), 107.7, 737.9 and 12,194 Hz (two), 0 dB at 1 kHz. Here
 //! each pole is a first-order section by the bilinear transform; the result is within the standard's class 1 for 44.1 and
@@ -18,18 +18,18 @@ const HIGH_PASSES: [f64; 4] = [20.598_997, 20.598_997, 107.652_65, 737.862_23];
 /// Poles of low-passes, Hz.
 const LOW_PASSES: [f64; 2] = [12_194.217; 2];
 /// Sections in all.
-const SECTIONS: usize = HIGH_PASSES.len() + LOW_PASSES.len();
+const SECTION_COUNT: usize = HIGH_PASSES.len() + LOW_PASSES.len();
 
 /// One section: y = b (x ± x₁) − a y₁.
 #[derive(Clone, Copy, Debug)]
-struct Section {
+struct FirstOrderSection {
     b: f64,
     sign: f64,
     a: f64,
 }
 
-impl Section {
-    fn size(&self, frequency: f64, sample_rate: f64) -> f64 {
+impl FirstOrderSection {
+    fn magnitude(&self, frequency: f64, sample_rate: f64) -> f64 {
         let (s, c) = sincos(2.0 * PI * frequency / sample_rate);
         let square = |x: f64| (1.0 + x * c) * (1.0 + x * c) + x * x * s * s;
         self.b.abs() * sqrt(square(self.sign) / square(self.a))
@@ -39,8 +39,8 @@ impl Section {
 /// The A-weighting of a stereo signal.
 #[derive(Clone, Debug)]
 pub struct AWeighting {
-    sections: [Section; SECTIONS],
-    states: [[f64; SECTIONS]; 2],
+    sections: [FirstOrderSection; SECTION_COUNT],
+    states: [[f64; SECTION_COUNT]; 2],
     gain: f64,
 }
 
@@ -53,17 +53,17 @@ impl AWeighting {
             let w = PI * pole / sample_rate;
             let norm = 1.0 / (1.0 + w);
             let (b, sign) = if high { (norm, -1.0) } else { (w * norm, 1.0) };
-            Section { b, sign, a: (w - 1.0) * norm }
+            FirstOrderSection { b, sign, a: (w - 1.0) * norm }
         };
         let sections = std::array::from_fn(section);
-        let mut weighting = Self { sections, states: [[0.0; SECTIONS]; 2], gain: 1.0 };
-        weighting.gain = 1.0 / weighting.size(1000.0, sample_rate);
+        let mut weighting = Self { sections, states: [[0.0; SECTION_COUNT]; 2], gain: 1.0 };
+        weighting.gain = 1.0 / weighting.magnitude(1000.0, sample_rate);
         weighting
     }
 
     /// Amplitude ratio at a frequency, Hz.
-    pub fn size(&self, frequency: f64, sample_rate: f64) -> f64 {
-        self.gain * self.sections.iter().map(|section| section.size(frequency, sample_rate)).product::<f64>()
+    pub fn magnitude(&self, frequency: f64, sample_rate: f64) -> f64 {
+        self.gain * self.sections.iter().map(|section| section.magnitude(frequency, sample_rate)).product::<f64>()
     }
 
     /// Power of a frame, (l² + r²)/2, weighted: ½ on the mean for a sine of 1 kHz at full scale on both sides. Real-time.
@@ -103,7 +103,7 @@ pub struct Exposure {
 const MINUTE: f64 = 60.0;
 
 impl Exposure {
-    /// Notes a mean power over some seconds of a day; another day than the last begins anew.
+    /// Adds a mean power over some seconds of a day; a new day restarts the mean.
     pub fn note(&mut self, power: f64, seconds: f64, day: u64) {
         if !(power.is_finite() && power >= 0.0 && seconds > 0.0) {
             return;

@@ -1,19 +1,20 @@
-//! Sound made by the motion itself. Knows no bodies: `simulation::sonify` translates.
+//! Physically based sound synthesis: modal synthesis, noise and surfaces, driven by the motion. The crate knows no bodies of
+//! the simulation; `simulation::sonify` translates.
 //!
-//! Time is a sample index at the synth's rate. Commands are small copies that fit a ring; nothing here allocates
-//! after [`Synth::new`].
+//! Time is a sample index at the synth's rate. Commands are small and fit a ring buffer; nothing allocates after
+//! [`Synth::new`].
 //!
 //! ```text
-//! timbre (preset files) ─→ instrument ─→ graph of operators ─┬─→ voices of hits ──┐
+//! timbre (preset files) ─→ instrument ─→ graph of operators ─┬─→ voices ──────────┐
 //! modes (of all sources) ─↗  excitation (Hertz, radiation)   └─→ bodies ──────────┴─→ mix ─→ master ─→ out
 //!                                                    modal (banks of partials) ──↗
 //! ```
 //!
-//! It never reads a clock, a device or a file: timbres are compiled in, or parsed from a text that the caller has read. It
-//! never plays a sample; all sound is computed from modes, noise and excitation. It never exceeds the ceiling of its limiter.
+//! The crate reads no clock, device or file: timbres are compiled in, or parsed from a text of the caller. It plays no recorded
+//! samples; all sound is computed from modes, noise and excitation. The output never exceeds the limiter's ceiling.
 //!
-//! The main types are [`Synth`] (renders stereo frames), [`SoundCommand`] (strikes, slides, touches, wind), [`InstrumentSpec`]
-//! (timbre, body and material), [`Preset`] (a timbre), and [`Room`] (reverberation).
+//! The main types are [`Synth`] (renders stereo frames), [`SoundCommand`] (strikes, slides, damping, wind), [`InstrumentSpec`]
+//! (timbre, body and material), [`Preset`] (a timbre), and [`Reverb`] (reverberation).
 //!
 //! ```
 //! use soffio_sound::{InstrumentSpec, SoundBody, SoundCommand, SoundMaterial, Strike, Synth};
@@ -33,11 +34,10 @@
 //!
 //! `cargo run -p soffio-sound --example chime` rings a chime tube and prints its peak and its decay.
 
-mod body;
+mod controls;
 mod excitation;
 mod graph;
 mod gusts;
-mod habit;
 mod instrument;
 mod level;
 mod limiter;
@@ -45,10 +45,11 @@ mod loudness;
 mod master;
 pub mod modal;
 pub mod modes;
-mod motion;
-mod night;
+mod night_mode;
+mod repetition;
 mod reverb;
 mod shared;
+mod sounding_body;
 mod synth;
 pub mod timbre;
 mod true_peak;
@@ -58,29 +59,29 @@ mod volume;
 pub use gusts::multifractal;
 pub use instrument::partials;
 pub use level::{AWeighting, Exposure, weighted_level};
-pub use limiter::{CEILING, SUDDEN};
+pub use limiter::{CEILING, ONSET_CEILING};
 pub use loudness::LoudnessMeter;
 pub use modes::{Mode, PlateMode, free_plate_modes};
-pub use reverb::{BANDS, Reverb, ReverbSpec, STEEPEST, T60_RANGE};
+pub use reverb::{BANDS, MAX_T60_RATIO, Reverb, ReverbSpec, T60_RANGE};
 pub use synth::{FADING_VOICES, MAX_COMMANDS, MAX_VOICES, MOST_PARTIALS, Synth};
 pub use timbre::{Preset, TimbreError};
 pub use true_peak::peak;
 pub use volume::{PROGRAMME, Volume, VolumeSettings};
 
-/// What the synth is told. Fixed size, so that it travels through a wait-free ring.
+/// Command to the synth, of fixed size for a wait-free ring buffer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SoundCommand {
-    /// Something was hit.
+    /// A body is struck.
     Strike(Strike),
-    /// Something rests on a body, or has left it.
+    /// A resting contact damps a body, or ends.
     Damp(Damp),
-    /// Something slides over a body, or has stopped; the synth glides from one to the next.
+    /// A contact slides over a body, or ends; the synth interpolates between commands.
     Slide(Slide),
-    /// The wind of one simulation step; the synth glides from one to the next.
+    /// The wind of one simulation step; the synth interpolates between commands.
     Wind(WindSound),
-    /// How much of the wind an instrument hears from now on.
+    /// Share of the wind that excites an instrument from now on.
     WindExposure(WindExposure),
-    /// Fade out everything (an exhibit was changed or reset).
+    /// Fades out everything (change or reset of an exhibit).
     Silence {
         /// When.
         sample: u64,
@@ -88,33 +89,33 @@ pub enum SoundCommand {
 }
 
 impl SoundCommand {
-    /// When it is to be carried out.
+    /// Sample at which it is executed.
     pub fn sample(&self) -> u64 {
         match self {
             Self::Strike(strike) => strike.sample,
             Self::Damp(touch) => touch.sample,
             Self::Slide(slide) => slide.sample,
             Self::Wind(wind) => wind.sample,
-            Self::WindExposure(across) => across.sample,
+            Self::WindExposure(exposure) => exposure.sample,
             Self::Silence { sample } => *sample,
         }
     }
 
-    /// The same command at another time.
+    /// The same command at another sample.
     pub fn at(mut self, time: u64) -> Self {
         match &mut self {
             Self::Strike(strike) => strike.sample = time,
             Self::Damp(touch) => touch.sample = time,
             Self::Slide(slide) => slide.sample = time,
             Self::Wind(wind) => wind.sample = time,
-            Self::WindExposure(across) => across.sample = time,
+            Self::WindExposure(exposure) => exposure.sample = time,
             Self::Silence { sample } => *sample = time,
         }
         self
     }
 }
 
-/// One hit of one sounding body.
+/// One impact on one sounding body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strike {
     /// When the contact begins.
@@ -125,7 +126,7 @@ pub struct Strike {
     pub impulse: f32,
     /// Approach speed, m/s.
     pub speed: f32,
-    /// Effective mass of the hit, kg (Hertz contact time).
+    /// Effective mass of the impact, kg (Hertz contact time).
     pub mass: f32,
     /// Where on the body: coordinates along its two largest half extents, −1…1 each.
     pub position: [f32; 2],
@@ -135,20 +136,20 @@ pub struct Strike {
     pub distance: f32,
 }
 
-/// Something that rests on a body takes from its ringing: a hand on a chime, a clapper that stays.
+/// Damping of a body by a resting contact: a hand on a chime, a clapper that stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Damp {
-    /// When it begins, or changes.
+    /// When it begins or changes.
     pub sample: u64,
     /// Index into the exhibit's instruments.
     pub instrument: u16,
     /// As in [`Strike`].
     pub position: [f32; 2],
-    /// R of a dashpot that does the same, N s/m; 0 when nothing rests there any more.
+    /// R of an equivalent dashpot, N s/m; 0 when the contact ends.
     pub resistance: f32,
 }
 
-/// One surface that slides over a sounding body.
+/// One sliding contact on a sounding body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Slide {
     /// When.
@@ -157,7 +158,7 @@ pub struct Slide {
     pub instrument: u16,
     /// Speed of the surfaces over each other, m/s.
     pub speed: f32,
-    /// Normal force, N; 0 when they have parted.
+    /// Normal force, N; 0 when the contact ends.
     pub force: f32,
     /// As in [`Strike`].
     pub position: [f32; 2],
@@ -167,33 +168,33 @@ pub struct Slide {
     pub distance: f32,
 }
 
-/// The wind as it is heard.
+/// The wind that sounds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WindSound {
     /// When.
     pub sample: u64,
     /// Speed of the air at the sculpture, m/s, gusts included.
     pub speed: f32,
-    /// Relative gust at this moment, about ±1: the same turbulence that pushes the plates.
+    /// Relative gust, about ±1, from the turbulence that acts on the surfaces.
     pub gust: f32,
-    /// Where it goes, seen from above: 0 away from the visitor, positive to the right, rad.
+    /// Direction of the flow seen from above: 0 away from the visitor, positive to the right, rad.
     pub direction: f32,
     /// −1 left … 1 right.
     pub pan: f32,
 }
 
-/// The wind at one instrument, of the wind as it is heard: a wire sounds from what blows across it.
+/// Share of the wind at one instrument: a wire is excited by the flow across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindExposure {
     /// When.
     pub sample: u64,
     /// Index into the exhibit's instruments.
     pub instrument: u16,
-    /// Part of the wind's speed: the sine of its angle with the wire. 1 until something else is said.
+    /// Share of the wind's speed: the sine of its angle with the wire; 1 at first.
     pub share: f32,
 }
 
-/// What a sounding body is made of.
+/// Material of a sounding body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundMaterial {
     /// Young's modulus, Pa.
@@ -206,7 +207,7 @@ pub struct SoundMaterial {
     pub loss_factor: f64,
 }
 
-/// The dimensions a sound is made from.
+/// Dimensions of a sounding body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundBody {
     /// The two largest half extents of the body, m, the larger first.
@@ -219,12 +220,12 @@ pub struct SoundBody {
     pub mass: f64,
 }
 
-/// A line across a surface, as a contact that slides along it meets it. It closes: behind the end comes the start.
+/// Closed line profile of a surface along which a contact slides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceLine {
-    /// Brightness or height; only differences are heard.
+    /// Brightness or height; only differences matter.
     pub values: Vec<f32>,
-    /// Between two of them, m.
+    /// Distance of two values, m.
     pub spacing: f64,
 }
 
@@ -241,6 +242,6 @@ pub struct InstrumentSpec {
     pub surface: Option<SurfaceLine>,
     /// Linear gain.
     pub gain: f64,
-    /// Most simultaneous clicks of hits on this body; what rings has no bound.
+    /// Most simultaneous voices of impacts on this body; its modes have no bound.
     pub max_voices: usize,
 }

@@ -1,27 +1,27 @@
-//! Look-ahead limiter: the last thing before the loudspeaker. No sample leaves it above [`CEILING`], nor does the wave
-//! between samples, and nothing that breaks a silence is at once as loud as may be.
+//! Look-ahead true-peak limiter, the last stage before the output. Neither samples nor the wave between them exceed [`CEILING`].
+//! After a silence the ceiling is lower at first.
 //!
-//! Each frame's true peak x (of the wave, not of the samples: [`super::true_peak`]) asks for a gain g(x) that keeps x g
+//! Each frame's true peak x (of the wave, not of the samples: [`super::true_peak`]) requires a gain g(x) that keeps x g
 //! below a ceiling C, with a soft knee k = C/2:
 //!
 //! ```text
 //! x ≤ k: g = 1        x > k: g = (k + (C − k) u/(1 + u)) / x,   u = (x − k)/(C − k)
 //! ```
 //!
-//! The signal is delayed by L frames and those that a true peak needs. The gain is the mean over L of the minimum over L
-//! of what was asked for: every minimum that the mean at the moment of the peak takes in knows of the peak, so none is
-//! larger than g(x). Recovery slows the minimum down before it is averaged, which only makes it smaller.
+//! The signal is delayed by L frames and those that a true peak needs. The gain is the mean over L of the minimum over L of
+//! the required gains. Every minimum within that mean at the time of a peak includes the peak, so the gain is at most
+//! g(x). Recovery slows the minimum before it is averaged, which only makes it smaller.
 //! (Giannoulis, Massberg and Reiss, "Digital Dynamic Range Compressor Design", JAES 60, 2012, for the terms.)
 //!
 //! Gains are whole numbers (2⁻³² units), so that the running sum is exact and never drifts.
 //!
 //! The ceiling itself moves. A sound startles by its onset: a blink and a jerk of the neck answer what is loud *and* rises
 //! within some 12 ms, and more rarely the slower it rises (Fleshler, J. Comp. Physiol. Psychol. 60, 1965; Blumenthal,
-//! Psychophysiology 25, 1988). So after a silence C is [`SUDDEN`], and rises by [`RISE`] while something asks for more:
+//! Psychophysiology 25, 1988). So after a silence C is [`ONSET_CEILING`], and rises by [`RISE`] while something asks for more:
 //! the last 8 dB of a bang take 0.1 s. It sinks again in the quiet that follows, by [`SINK`].
 //!
-//! Where nothing has reached for the ceiling for as long as the signal is delayed, and what comes does not either, the gain
-//! stands still, and frames only pass: the same bits for less.
+//! While no frame within the delay, nor any new one, requires less gain, the gain is constant and frames only pass: the same
+//! bits at less cost.
 //!
 //! Real-time: all storage is made by [`Limiter::new`].
 
@@ -30,13 +30,13 @@ use soffio_math::{exp, pow};
 
 /// Largest true peak that leaves, −1 dBTP.
 pub const CEILING: f64 = 0.891_250_938_133_745_5;
-/// The limiter aims lower by this, −0.2 dB: what a fourfold look between samples may miss, and the gain's own movement.
+/// Margin below the ceiling, −0.2 dB: error of fourfold oversampling, and change of the gain.
 const MARGIN: f64 = 0.977_237_220_955_810_7;
-/// What may break a silence at once, −9 dBFS.
-pub const SUDDEN: f64 = 0.354_813_389_233_575_5;
-/// By how much the ceiling rises while something reaches for it, dB/s.
+/// Ceiling after a silence, −9 dBFS.
+pub const ONSET_CEILING: f64 = 0.354_813_389_233_575_5;
+/// Rise of the ceiling while peaks approach it, dB/s.
 const RISE: f64 = 80.0;
-/// By how much it sinks when nothing does, dB/s.
+/// Fall of the ceiling otherwise, dB/s.
 const SINK: f64 = 4.0;
 /// Look-ahead, s.
 const LOOK_AHEAD: f64 = 0.0015;
@@ -54,8 +54,8 @@ pub(super) struct Limiter {
     at: usize,
     gain_at: usize,
     /// Minimum over a sliding window (Lemire 2006): ascending gains with the frame they were asked for, a ring of L + 1.
-    wedge: Vec<(u64, u64)>,
-    front: usize,
+    minima: Vec<(u64, u64)>,
+    first: usize,
     length: usize,
     frame: u64,
     held: u64,
@@ -78,15 +78,15 @@ impl Limiter {
             sum: UNITY * frames as u64,
             at: 0,
             gain_at: 0,
-            wedge: vec![(0, 0); frames + 1],
-            front: 0,
+            minima: vec![(0, 0); frames + 1],
+            first: 0,
             length: 0,
             frame: 0,
             held: UNITY,
             still: frames,
             recovery: 1.0 - exp(-1.0 / (RECOVERY * sample_rate)),
             true_peak: TruePeak::new(),
-            ceiling: SUDDEN,
+            ceiling: ONSET_CEILING,
             rise: pow(10.0, RISE / 20.0 / sample_rate),
             sink: pow(10.0, -SINK / 20.0 / sample_rate),
         }
@@ -99,16 +99,16 @@ impl Limiter {
 
     /// Takes frames, gives those of [`Self::latency`] ago in their place.
     pub fn process(&mut self, frames: &mut [[f32; 2]]) {
-        if self.stands() && self.true_peak.bound(frames) <= 0.5 * SUDDEN {
-            self.pass(frames);
+        if self.is_steady() && self.true_peak.bound(frames) <= 0.5 * ONSET_CEILING {
+            self.pass_through(frames);
         } else {
             frames.iter_mut().for_each(|frame| *frame = self.process_one(*frame));
         }
     }
 
-    /// Will the gain stay what it is while nothing reaches for the ceiling?
-    fn stands(&self) -> bool {
-        let nothing_asked = self.length > 0 && self.wedge[self.front].0 == UNITY;
+    /// Whether the gain is constant while no frame requires less.
+    fn is_steady(&self) -> bool {
+        let nothing_asked = self.length > 0 && self.minima[self.first].0 == UNITY;
         nothing_asked && self.still >= self.gains.len() && self.recovered() == self.held
     }
 
@@ -117,9 +117,9 @@ impl Limiter {
         self.held + ((UNITY - self.held) as f64 * self.recovery) as u64
     }
 
-    /// As [`Self::process_one`], where the gain stands and none of these frames asks for less.
-    fn pass(&mut self, frames: &mut [[f32; 2]]) {
-        self.true_peak.take(frames);
+    /// As [`Self::process_one`] for frames that require no less than a constant gain.
+    fn pass_through(&mut self, frames: &mut [[f32; 2]]) {
+        self.true_peak.push_all(frames);
         let gain = self.gain();
         let mut coming = &mut *frames;
         while !coming.is_empty() {
@@ -132,20 +132,21 @@ impl Limiter {
         frames.iter_mut().for_each(|frame| *frame = limited(*frame, gain));
         for _ in 0..frames.len() {
             let before = self.ceiling;
-            self.ceiling = (before * self.sink).clamp(SUDDEN, CEILING * MARGIN);
+            self.ceiling = (before * self.sink).clamp(ONSET_CEILING, CEILING * MARGIN);
             if self.ceiling == before {
                 break;
             }
         }
         self.frame += frames.len() as u64;
-        (self.length, self.wedge[self.front]) = (1, (UNITY, self.frame - 1));
+        (self.length, self.minima[self.first]) = (1, (UNITY, self.frame - 1));
     }
 
     fn process_one(&mut self, frame: [f32; 2]) -> [f32; 2] {
         let peak = f64::from(self.true_peak.process(frame));
-        let minimum = self.slide(wanted(peak, self.ceiling));
+        let minimum = self.sliding_minimum(required_gain(peak, self.ceiling));
         let reached = peak > 0.5 * self.ceiling;
-        self.ceiling = (self.ceiling * if reached { self.rise } else { self.sink }).clamp(SUDDEN, CEILING * MARGIN);
+        self.ceiling =
+            (self.ceiling * if reached { self.rise } else { self.sink }).clamp(ONSET_CEILING, CEILING * MARGIN);
         let before = self.held;
         self.held = if minimum <= self.held {
             minimum
@@ -165,21 +166,21 @@ impl Limiter {
         self.sum as f64 / (UNITY * self.gains.len() as u64) as f64
     }
 
-    /// Minimum of the last L + 1 wishes, this one included: those of a frame live until it has left the delay.
-    fn slide(&mut self, wish: u64) -> u64 {
-        let size = self.wedge.len();
+    /// Minimum of the last L + 1 required gains, this one included (Lemire 2006).
+    fn sliding_minimum(&mut self, gain: u64) -> u64 {
+        let size = self.minima.len();
         let place = |from: usize| if from < size { from } else { from - size };
-        while self.length > 0 && self.wedge[place(self.front + self.length - 1)].0 >= wish {
+        while self.length > 0 && self.minima[place(self.first + self.length - 1)].0 >= gain {
             self.length -= 1;
         }
-        if self.length > 0 && self.wedge[self.front].1 + (size as u64) <= self.frame {
-            self.front = next(self.front, size);
+        if self.length > 0 && self.minima[self.first].1 + (size as u64) <= self.frame {
+            self.first = next(self.first, size);
             self.length -= 1;
         }
-        self.wedge[place(self.front + self.length)] = (wish, self.frame);
+        self.minima[place(self.first + self.length)] = (gain, self.frame);
         self.length += 1;
         self.frame += 1;
-        self.wedge[self.front].0
+        self.minima[self.first].0
     }
 }
 
@@ -197,8 +198,8 @@ fn next(at: usize, size: usize) -> usize {
     if at + 1 == size { 0 } else { at + 1 }
 }
 
-/// The gain that a peak asks for below a ceiling.
-fn wanted(peak: f64, ceiling: f64) -> u64 {
+/// Gain required by a peak below a ceiling.
+fn required_gain(peak: f64, ceiling: f64) -> u64 {
     let knee = 0.5 * ceiling;
     if peak <= knee {
         return UNITY;
@@ -257,7 +258,7 @@ mod tests {
             let n = 1 + (random.unit() * 200.0) as usize;
             let mut frames: Vec<[f32; 2]> = (0..n).map(|_| [0, 1].map(|_| (loud * random.signed()) as f32)).collect();
             let expected: Vec<[f32; 2]> = frames.iter().map(|frame| alone.process_one(*frame)).collect();
-            passed += usize::from(together.stands() && together.true_peak.bound(&frames) <= 0.5 * SUDDEN);
+            passed += usize::from(together.is_steady() && together.true_peak.bound(&frames) <= 0.5 * ONSET_CEILING);
             together.process(&mut frames);
             assert_eq!(frames, expected, "block {block}");
             assert_eq!(together.ceiling, alone.ceiling);

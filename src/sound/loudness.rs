@@ -17,17 +17,17 @@ use fearless_simd::{Level, Simd, dispatch, f64x2, f64x4};
 use soffio_math::amplitude_to_db;
 
 /// b₀, b₁, b₂, a₁, a₂ of the two filters, at [`LoudnessMeter::SAMPLE_RATE`].
-const HEAD: [f64; 5] =
+const HEAD_SHELF: [f64; 5] =
     [1.535_124_859_586_97, -2.691_696_189_406_38, 1.198_392_810_852_85, -1.690_659_293_182_41, 0.732_480_774_215_85];
 const HIGH_PASS: [f64; 5] = [1.0, -2.0, 1.0, -1.990_047_454_833_98, 0.990_072_250_366_21];
-/// Frames from one look to the next, and looks that a block is long.
-const STRIDE: usize = LoudnessMeter::SAMPLE_RATE as usize / 10;
+/// Frames of an interval, and intervals of a gating block.
+const INTERVAL: usize = LoudnessMeter::SAMPLE_RATE as usize / 10;
 const BLOCK: usize = 4;
 /// Loudness of a mean square of 1, LUFS.
-const FULL: f64 = -0.691;
-/// Softer blocks are silence, LUFS; those softer than the others by so much are pauses, LU.
-const SILENCE: f64 = -70.0;
-const PAUSE: f64 = 10.0;
+const OFFSET: f64 = -0.691;
+/// Absolute gate, LUFS, and relative gate, LU, of BS.1770.
+const ABSOLUTE_GATE: f64 = -70.0;
+const RELATIVE_GATE: f64 = 10.0;
 
 /// A number of the first filter's channels, then of the second's.
 type Lanes = [f64; 4];
@@ -125,8 +125,8 @@ impl Filters {
         sums[2] + sums[3]
     }
 
-    /// Far below what is heard: numbers that make processors slow.
-    fn settle(&mut self) {
+    /// Sets far inaudible states to 0: denormal numbers make processors slow.
+    fn flush_denormals(&mut self) {
         self.state.as_flattened_mut().iter_mut().filter(|x| x.abs() < 1e-30).for_each(|x| *x = 0.0);
     }
 }
@@ -142,7 +142,7 @@ pub struct LoudnessMeter {
     sum: f64,
     frames: usize,
     sums: [f64; BLOCK],
-    looks: usize,
+    intervals: usize,
     /// Mean squares of all blocks that are not silence.
     blocks: Vec<f64>,
 }
@@ -151,21 +151,21 @@ impl LoudnessMeter {
     /// The rate that it is made for, Hz.
     pub const SAMPLE_RATE: u32 = 48_000;
 
-    /// Nothing has been heard.
+    /// Before the first frame.
     pub fn new() -> Self {
         Self {
-            filters: Filters::new([HEAD, HIGH_PASS]),
+            filters: Filters::new([HEAD_SHELF, HIGH_PASS]),
             level: Level::new(),
             odd: None,
             sum: 0.0,
             frames: 0,
             sums: [0.0; BLOCK],
-            looks: 0,
+            intervals: 0,
             blocks: Vec::new(),
         }
     }
 
-    /// Goes on by these frames.
+    /// Adds frames.
     pub fn push(&mut self, mut frames: &[[f32; 2]]) {
         if let (Some(first), Some((second, rest))) = (self.odd, frames.split_first()) {
             self.odd = None;
@@ -177,7 +177,7 @@ impl LoudnessMeter {
         frames = &frames[..whole];
         // Looks lie between pairs.
         while !frames.is_empty() {
-            let (now, later) = frames.split_at(frames.len().min(STRIDE - self.frames));
+            let (now, later) = frames.split_at(frames.len().min(INTERVAL - self.frames));
             self.take(now);
             frames = later;
         }
@@ -187,12 +187,12 @@ impl LoudnessMeter {
     fn take(&mut self, frames: &[[f32; 2]]) {
         self.sum += self.filters.squares(self.level, frames.as_chunks().0);
         self.frames += frames.len();
-        if self.frames == STRIDE {
-            self.filters.settle();
-            self.sums[self.looks % BLOCK] = std::mem::take(&mut self.sum);
-            (self.looks, self.frames) = (self.looks + 1, 0);
-            let square = self.sums.iter().sum::<f64>() / (BLOCK * STRIDE) as f64;
-            if self.looks >= BLOCK && loudness(square) > SILENCE {
+        if self.frames == INTERVAL {
+            self.filters.flush_denormals();
+            self.sums[self.intervals % BLOCK] = std::mem::take(&mut self.sum);
+            (self.intervals, self.frames) = (self.intervals + 1, 0);
+            let square = self.sums.iter().sum::<f64>() / (BLOCK * INTERVAL) as f64;
+            if self.intervals >= BLOCK && loudness(square) > ABSOLUTE_GATE {
                 self.blocks.push(square);
             }
         }
@@ -207,8 +207,8 @@ impl LoudnessMeter {
         if self.blocks.is_empty() {
             return f64::NEG_INFINITY;
         }
-        let pause = soffio_math::pow(10.0, -PAUSE / 10.0);
-        loudness(mean(pause * mean(0.0)))
+        let relative_gate = soffio_math::pow(10.0, -RELATIVE_GATE / 10.0);
+        loudness(mean(relative_gate * mean(0.0)))
     }
 }
 
@@ -220,5 +220,5 @@ impl Default for LoudnessMeter {
 
 /// Of a mean square, LUFS.
 fn loudness(square: f64) -> f64 {
-    FULL + 0.5 * amplitude_to_db(square)
+    OFFSET + 0.5 * amplitude_to_db(square)
 }

@@ -1,23 +1,23 @@
-//! From the sum of all sounds to the loudspeaker: the room, the night, the limiter.
+//! Master bus: reverb, night mode and limiter between the sum of all sounds and the output.
 //!
 //! ```text
-//! mix ─┬──────────→ (+) ─→ night ─→ limiter ─→ out
-//!      └─→ room ────┘
+//! mix ─┬────────────→ (+) ─→ night mode ─→ limiter ─→ out
+//!      └─→ reverb ────┘
 //! ```
 //!
-//! The volume comes after it, in the callback: what the limiter let pass stays below its ceiling at any volume up to 0 dB.
+//! The volume follows in the callback, so the output stays below the limiter's ceiling at any volume up to 0 dB.
 
 use super::limiter::Limiter;
-use super::night::Night;
+use super::night_mode::{NightMode, Transition};
 use super::reverb::{Reverb, ReverbSpec};
 
-/// Frames that the room answers at once.
-const PIECE: usize = 256;
+/// Frames of reverb computed at once.
+const CHUNK: usize = 256;
 
 pub(super) struct Master {
     sample_rate: f64,
-    room: Option<Box<Reverb>>,
-    night: Night,
+    reverb: Option<Box<Reverb>>,
+    night_mode: NightMode,
     limiter: Limiter,
     started: bool,
 }
@@ -26,42 +26,42 @@ impl Master {
     pub fn new(sample_rate: f64) -> Self {
         Self {
             sample_rate,
-            room: None,
-            night: Night::new(sample_rate),
+            reverb: None,
+            night_mode: NightMode::new(sample_rate),
             limiter: Limiter::new(sample_rate),
             started: false,
         }
     }
 
-    /// Frames by which the sound comes later.
+    /// Latency, frames.
     pub fn latency(&self) -> usize {
         self.limiter.latency()
     }
 
-    /// The room from now on; `None` and rooms that cannot be are the open air.
-    pub fn set_room(&mut self, spec: Option<&ReverbSpec>) {
-        self.room = spec.and_then(|spec| Reverb::new(spec, self.sample_rate)).map(Box::new);
+    /// Sets the reverb; `None` and invalid specifications turn it off.
+    pub fn set_reverb(&mut self, spec: Option<&ReverbSpec>) {
+        self.reverb = spec.and_then(|spec| Reverb::new(spec, self.sample_rate)).map(Box::new);
     }
 
     /// Real-time.
-    pub fn set_night(&mut self, night: bool) {
-        self.night.set(night, !self.started);
+    pub fn set_night(&mut self, night_mode: bool) {
+        let transition = if self.started { Transition::Fade } else { Transition::Immediate };
+        self.night_mode.set(night_mode, transition);
     }
 
-    /// Takes frames, gives those of [`Self::latency`] ago in their place; how they are cut into calls does not matter.
-    /// Real-time.
+    /// Processes frames in place, with [`Self::latency`]; how they are cut into calls does not matter. Real-time.
     pub fn process(&mut self, frames: &mut [[f32; 2]]) {
         self.started = true;
-        if let Some(room) = &mut self.room {
-            for frames in frames.chunks_mut(PIECE) {
-                let mut answer = [[0.0; 2]; PIECE];
-                let answer = &mut answer[..frames.len()];
-                answer.copy_from_slice(frames);
-                room.answer(answer);
-                frames.as_flattened_mut().iter_mut().zip(answer.as_flattened()).for_each(|(x, y)| *x += y);
+        if let Some(reverb) = &mut self.reverb {
+            for frames in frames.chunks_mut(CHUNK) {
+                let mut wet = [[0.0; 2]; CHUNK];
+                let wet = &mut wet[..frames.len()];
+                wet.copy_from_slice(frames);
+                reverb.process(wet);
+                frames.as_flattened_mut().iter_mut().zip(wet.as_flattened()).for_each(|(x, y)| *x += y);
             }
         }
-        self.night.process(frames);
+        self.night_mode.process(frames);
         self.limiter.process(frames);
     }
 }

@@ -1,42 +1,42 @@
-//! The synth: commands in, stereo out.
+//! The synthesizer: sound commands in, stereo out.
 //!
 //! Time is the sample counter [`Synth::position`]. A block is cut at commands and at the points of the control grid,
-//! so each hit starts on its own sample, and the output does not depend on how the caller cuts its blocks.
+//! so each impact starts on its own sample, and the output does not depend on how the caller cuts its blocks.
 //!
 //! Invariant: same rate, instruments, seed and commands → the same bits, in debug and release, on all processors that
 //! fuse multiply-adds and on all that do not ([`fuses`](super::modal::fuses)).
 //!
-//! What rings belongs to bodies and adds up there; what else a hit is heard by has a voice of its own.
+//! Modal sound belongs to bodies and adds up there; other sound of an impact has its own voice.
 //!
 //! Real-time: after [`Synth::new`] nothing allocates, frees, locks or calls the system, and the work per sample is
 //! bounded by [`MAX_VOICES`] + [`FADING_VOICES`] voices and by [`Synth::set_most_partials`].
 
 use std::collections::VecDeque;
 
-use super::body::Body;
-use super::graph::{Block, CONTROL, Part};
-use super::habit::Habit;
+use super::controls::{ControlValues, MIN_DISTANCE, SustainedControls};
+use super::graph::{AudioBlock, Bus, CONTROL_PERIOD};
 use super::instrument::Instrument;
 use super::master::Master;
-use super::motion::{Heard, Motion, NEAREST};
+use super::repetition::RepetitionAttenuation;
 use super::reverb::ReverbSpec;
 use super::shared::Shared;
+use super::sounding_body::{SoundingBody, SynthClock};
 use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
 use super::{Damp, InstrumentSpec, SoundCommand, Strike};
 use soffio_math::noise::hash_words;
 use soffio_math::{PI, sincos};
 
-/// Partials that ring at once where nothing else is said: two and a half times the heaviest scene.
+/// Default bound of the ringing partials: two and a half times the heaviest scene.
 pub const MOST_PARTIALS: usize = 16_384;
-/// Most hits with a voice of their own at once. One more makes the quietest fade.
+/// Most voices of impacts at once. One more steals the quietest.
 pub const MAX_VOICES: usize = 48;
-/// Places for voices that are fading because others took over.
+/// Additional voices that fade after being stolen.
 pub const FADING_VOICES: usize = 16;
 /// Commands that can wait.
 pub const MAX_COMMANDS: usize = 1024;
 
-/// A voice that must make room fades in this time, s: short, yet no click.
+/// Fade of a stolen voice, s: short, yet without a click.
 const STEAL_FADE: f64 = 0.003;
 /// [`SoundCommand::Silence`] takes this long, s.
 const SILENCE_FADE: f64 = 0.04;
@@ -45,21 +45,21 @@ pub struct Synth {
     sample_rate: f64,
     seed: u64,
     instruments: Vec<Instrument>,
-    bodies: Vec<Body>,
+    bodies: Vec<SoundingBody>,
     /// Index of an instrument's body.
-    body_of: Vec<Option<usize>>,
+    body_index: Vec<Option<usize>>,
     most_partials: usize,
     voices: Vec<Voice>,
-    /// None from here on sounds.
-    used: usize,
-    /// Voices that go on as long as the wind or a slide plays them.
-    lasting: Vec<Voice>,
-    motion: Motion,
+    /// Voices from this index on are free.
+    used_voices: usize,
+    /// Sustained voices of wind and slides.
+    sustained: Vec<Voice>,
+    controls: SustainedControls,
     /// In the order of their times.
     commands: VecDeque<SoundCommand>,
-    blocks: Box<[Block; MAX_NODES]>,
+    blocks: Box<[AudioBlock; MAX_NODES]>,
     /// One for each instrument.
-    habits: Vec<Habit>,
+    repetitions: Vec<RepetitionAttenuation>,
     master: Master,
     dry: bool,
     position: u64,
@@ -113,37 +113,37 @@ impl Synth {
     fn with_instruments(sample_rate: u32, instruments: Vec<Instrument>, seed: u64) -> Self {
         let sample_rate = f64::from(sample_rate.max(1));
         let mut bodies = Vec::new();
-        let mut body_of = Vec::with_capacity(instruments.len());
+        let mut body_index = Vec::with_capacity(instruments.len());
         for (i, instrument) in instruments.iter().enumerate() {
             let bank = instrument.bank(hash_words(&[seed, i as u64]), sample_rate);
-            body_of.push(bank.is_some().then_some(bodies.len()));
-            bodies.extend(bank.map(|bank| Body::new(i, instrument, bank, sample_rate)));
+            body_index.push(bank.is_some().then_some(bodies.len()));
+            bodies.extend(bank.map(|bank| SoundingBody::new(i, instrument, bank, sample_rate)));
         }
-        let mut lasting = Vec::new();
+        let mut sustained = Vec::new();
         for (i, instrument) in instruments.iter().enumerate().filter(|(_, instrument)| !instrument.is_hit()) {
             let mut voice = Voice::new();
             voice.instrument = i;
-            instrument.graph.make_room(&mut voice.operators, sample_rate);
-            lasting.push(voice);
+            instrument.graph.allocate(&mut voice.operators, sample_rate);
+            sustained.push(voice);
         }
         let mut voices: Vec<Voice> = (0..MAX_VOICES + FADING_VOICES).map(|_| Voice::new()).collect();
         for instrument in instruments.iter().filter(|instrument| instrument.is_hit()) {
-            voices.iter_mut().for_each(|voice| instrument.graph.make_room(&mut voice.operators, sample_rate));
+            voices.iter_mut().for_each(|voice| instrument.graph.allocate(&mut voice.operators, sample_rate));
         }
         Self {
-            motion: Motion::new(instruments.len(), sample_rate),
+            controls: SustainedControls::new(instruments.len(), sample_rate),
             sample_rate,
             seed,
-            habits: vec![Habit::default(); instruments.len()],
+            repetitions: vec![RepetitionAttenuation::default(); instruments.len()],
             instruments,
             bodies,
-            body_of,
+            body_index,
             most_partials: MOST_PARTIALS,
             voices,
-            used: 0,
-            lasting,
+            used_voices: 0,
+            sustained,
             commands: VecDeque::with_capacity(MAX_COMMANDS),
-            blocks: Box::new([[0.0; CONTROL]; MAX_NODES]),
+            blocks: Box::new([[0.0; CONTROL_PERIOD]; MAX_NODES]),
             master: Master::new(sample_rate),
             dry: false,
             position: 0,
@@ -168,44 +168,44 @@ impl Synth {
         if self.dry { 0 } else { self.master.latency() }
     }
 
-    /// Bypasses room, limiter and whatever else comes after the sum of all sounds, and eases no repetition. To be called
-    /// before the first sample: it changes the latency.
+    /// Bypasses reverb, night mode and limiter, and turns repetition attenuation off. To be called before the first sample, because
+    /// it changes the latency.
     pub fn set_dry(&mut self, dry: bool) {
         self.dry = dry;
     }
 
-    /// The room that all is heard in; `None`, which is also the beginning, is the open air. Allocates.
-    pub fn set_reverb(&mut self, room: Option<&ReverbSpec>) {
-        self.master.set_room(room);
+    /// Sets the reverb; `None`, the initial state, is dry. Allocates.
+    pub fn set_reverb(&mut self, reverb: Option<&ReverbSpec>) {
+        self.master.set_reverb(reverb);
     }
 
-    /// The night's sound or the day's, to which it glides; before the first sample it is so at once. Real-time.
+    /// Turns night mode on or off with a fade; before the first sample immediately. Real-time.
     pub fn set_night(&mut self, night: bool) {
         self.master.set_night(night);
     }
 
-    /// Bounds the partials that ring at once: the quietest leave first, by groups of sixteen.
+    /// Bounds the ringing partials: the quietest are released first, in groups of sixteen.
     pub fn set_most_partials(&mut self, most: usize) {
         self.most_partials = most;
     }
 
-    /// Bodies and voices that sound now, the wind's included.
+    /// Number of sounding bodies and voices, sustained ones included.
     pub fn sounding(&self) -> usize {
-        let voices = self.voices.iter().chain(&self.lasting).filter(|voice| voice.state != VoiceState::Free);
+        let voices = self.voices.iter().chain(&self.sustained).filter(|voice| voice.state != VoiceState::Free);
         voices.count() + self.bodies.iter().filter(|body| body.sounds()).count()
     }
 
-    /// Partials that ring now.
+    /// Number of ringing partials.
     pub fn partials(&self) -> usize {
         self.bodies.iter().map(|body| body.bank.ringing()).sum()
     }
 
-    /// Commands and voices with bad numbers so far; they were left out.
+    /// Number of commands and voices with invalid numbers so far; they were skipped.
     pub fn faults(&self) -> u64 {
         self.faults
     }
 
-    /// Commands that found no room so far.
+    /// Number of commands and voices dropped so far for lack of space.
     pub fn lost(&self) -> u64 {
         self.lost
     }
@@ -215,14 +215,14 @@ impl Synth {
         self.instruments.get(usize::from(instrument)).map(|i| i.contact_time(mass, speed))
     }
 
-    /// Takes a command for its own time; one whose time has come or is over is carried out at once, and needs no room: a
-    /// burst of late ones is heard, however many wait for their time.
+    /// Queues a command for its sample. A command that is due or late is executed at once and needs no space in the queue, so a
+    /// burst of late commands is not lost.
     pub fn command(&mut self, command: SoundCommand) {
         if !is_finite(&command) {
             self.faults += 1;
         } else if command.sample() <= self.position {
-            self.carry_out_due();
-            self.carry_out(command);
+            self.execute_due();
+            self.execute(command);
         } else if self.commands.len() == MAX_COMMANDS {
             self.lost += 1;
         } else {
@@ -235,11 +235,11 @@ impl Synth {
 
     /// Renders interleaved stereo, left first; a last odd sample is left silent.
     pub fn render(&mut self, out: &mut [f32]) {
-        let (mut left, mut right) = ([0.0f32; CONTROL], [0.0f32; CONTROL]);
+        let (mut left, mut right) = ([0.0f32; CONTROL_PERIOD], [0.0f32; CONTROL_PERIOD]);
         let (mut frames, rest) = out.as_chunks_mut::<2>();
         rest.fill(0.0);
         while !frames.is_empty() {
-            let n = self.next_cut(frames.len());
+            let n = self.next_boundary(frames.len());
             let (now, later) = frames.split_at_mut(n);
             let (left, right) = (&mut left[..n], &mut right[..n]);
             left.fill(0.0);
@@ -256,31 +256,31 @@ impl Synth {
         }
     }
 
-    /// Carries out what is due now and tells how many frames there are until the next thing is.
-    fn next_cut(&mut self, most: usize) -> usize {
-        self.carry_out_due();
-        let since_grid = (self.position % CONTROL as u64) as usize;
+    /// Executes all that is due and returns the number of frames until the next boundary.
+    fn next_boundary(&mut self, most: usize) -> usize {
+        self.execute_due();
+        let since_grid = (self.position % CONTROL_PERIOD as u64) as usize;
         if since_grid == 0 {
             self.grid_point();
         }
         let to_command = self.commands.front().map_or(u64::MAX, |command| command.sample() - self.position);
-        most.min(CONTROL - since_grid).min(usize::try_from(to_command).unwrap_or(usize::MAX))
+        most.min(CONTROL_PERIOD - since_grid).min(usize::try_from(to_command).unwrap_or(usize::MAX))
     }
 
-    fn carry_out_due(&mut self) {
+    fn execute_due(&mut self) {
         while self.commands.front().is_some_and(|command| command.sample() <= self.position) {
             if let Some(command) = self.commands.pop_front() {
-                self.carry_out(command);
+                self.execute(command);
             }
         }
     }
 
-    fn carry_out(&mut self, command: SoundCommand) {
+    fn execute(&mut self, command: SoundCommand) {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
-            SoundCommand::Damp(touch) => self.touch(&touch),
+            SoundCommand::Damp(damp) => self.damp(&damp),
             SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::WindExposure(_) => {
-                if !self.motion.command(&command) {
+                if !self.controls.command(&command) {
                     self.faults += 1;
                 }
             }
@@ -288,7 +288,7 @@ impl Synth {
                 let samples = (SILENCE_FADE * self.sample_rate) as f32;
                 self.voices.iter_mut().for_each(|voice| voice.fade_out(samples));
                 self.bodies.iter_mut().for_each(|body| body.fade_out(samples));
-                self.motion.silence();
+                self.controls.silence();
             }
         }
     }
@@ -302,63 +302,64 @@ impl Synth {
         self.strikes += 1;
         let [l, r] = equal_power(f64::from(strike.pan));
         let time = self.position as f64 / self.sample_rate;
-        let eased = if self.dry { 1.0 } else { self.habits[index].hit(f64::from(strike.impulse), time) };
-        let gain = eased * instrument.gain as f32 / strike.distance.max(NEAREST);
+        let repetition_gain =
+            if self.dry { 1.0 } else { self.repetitions[index].strike_gain(f64::from(strike.impulse), time) };
+        let gain = repetition_gain * instrument.gain as f32 / strike.distance.max(MIN_DISTANCE);
         let gains = [l * gain, r * gain];
         let inputs = instrument.inputs(strike);
         let clock = self.clock();
-        if let Some(body) = self.body_of[index] {
-            let since = (self.position % CONTROL as u64) as usize;
-            let since = if since == 0 { CONTROL } else { since };
+        if let Some(body) = self.body_index[index] {
+            let since = (self.position % CONTROL_PERIOD as u64) as usize;
+            let since = if since == 0 { CONTROL_PERIOD } else { since };
             if !self.bodies[body].strike(instrument, &inputs, gains, since, clock) {
                 self.faults += 1;
                 return;
             }
         }
-        if !instrument.graph.has(Part::Hit) {
+        if !instrument.graph.has(Bus::Voice) {
             return;
         }
         let most = instrument.max_voices;
-        self.make_room(most, |voice| voice.instrument == index);
-        self.make_room(MAX_VOICES, |_| true);
+        self.steal_voices(most, |voice| voice.instrument == index);
+        self.steal_voices(MAX_VOICES, |_| true);
         let Some(free) = self.voices.iter().position(|voice| voice.state == VoiceState::Free) else {
-            // Every place fades: more than FADING_VOICES hits in 3 ms. Its click is not heard; what rings is.
+            // All fading voices are in use: more than FADING_VOICES impacts in 3 ms. Only the modal part sounds.
             self.lost += 1;
             return;
         };
-        self.used = self.used.max(free + 1);
+        self.used_voices = self.used_voices.max(free + 1);
         let (voice, instrument) = (&mut self.voices[free], &self.instruments[index]);
         let seed = hash_words(&[self.seed, self.strikes]);
         voice.begin(index, gains);
         voice.inputs = inputs;
-        instrument.graph.begin(Part::Hit, &mut voice.operators, &voice.inputs, seed, clock.0, clock.1);
-        if let Some(body) = self.body_of[index].filter(|_| instrument.graph.drives()) {
-            self.bodies[body].push(instrument, &inputs, gains, clock);
+        instrument.graph.begin(Bus::Voice, &mut voice.operators, &voice.inputs, seed, clock.time, clock.sample_rate);
+        if let Some(body) = self.body_index[index].filter(|_| instrument.graph.drives()) {
+            self.bodies[body].start_drive(instrument, &inputs, gains, clock);
         }
     }
 
-    /// Something rests on a body from now on, or no longer.
-    fn touch(&mut self, touch: &Damp) {
-        let index = usize::from(touch.instrument);
-        match self.body_of.get(index) {
+    /// Sets the damping of a body by a resting contact.
+    fn damp(&mut self, damp: &Damp) {
+        let index = usize::from(damp.instrument);
+        match self.body_index.get(index) {
             Some(Some(body)) => {
-                let position = touch.position.map(f64::from);
+                let position = damp.position.map(f64::from);
                 let bank = &mut self.bodies[*body].bank;
-                self.instruments[index].touch(bank, position, f64::from(touch.resistance));
+                self.instruments[index].damp(bank, position, f64::from(damp.resistance));
             }
-            // Nothing of it rings.
+            // It has no modal part.
             Some(None) => {}
             None => self.faults += 1,
         }
     }
 
     /// Time now, s, and the sample rate.
-    fn clock(&self) -> (f64, f64) {
-        (self.position as f64 / self.sample_rate, self.sample_rate)
+    fn clock(&self) -> SynthClock {
+        SynthClock { time: self.position as f64 / self.sample_rate, sample_rate: self.sample_rate }
     }
 
-    /// Lets the quietest of these voices fade until there is room for one more among `most`.
-    fn make_room(&mut self, most: usize, among: impl Fn(&Voice) -> bool) {
+    /// Steals the quietest of these voices if there are `most` already.
+    fn steal_voices(&mut self, most: usize, among: impl Fn(&Voice) -> bool) {
         let samples = (STEAL_FADE * self.sample_rate) as f32;
         let sounding = |voice: &Voice| voice.state == VoiceState::Sounding && among(voice);
         if self.voices.iter().filter(|voice| sounding(voice)).count() < most {
@@ -374,60 +375,60 @@ impl Synth {
     /// A point of the control grid.
     fn grid_point(&mut self) {
         let clock = self.clock();
-        let (time, sample_rate) = clock;
+        let SynthClock { time, sample_rate } = clock;
         for body in &mut self.bodies {
             if !body.grid_point(&self.instruments[body.instrument], clock) {
                 self.faults += 1;
             }
         }
-        self.keep_few();
-        while self.used > 0 && self.voices[self.used - 1].state == VoiceState::Free {
-            self.used -= 1;
+        self.steal_partials();
+        while self.used_voices > 0 && self.voices[self.used_voices - 1].state == VoiceState::Free {
+            self.used_voices -= 1;
         }
-        for voice in self.voices[..self.used].iter_mut().filter(|voice| voice.state != VoiceState::Free) {
+        for voice in self.voices[..self.used_voices].iter_mut().filter(|voice| voice.state != VoiceState::Free) {
             let graph = &self.instruments[voice.instrument].graph;
             voice.grid_point(graph);
-            graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
+            graph.control(Bus::Voice, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
-        self.motion.glide();
-        for voice in &mut self.lasting {
+        self.controls.glide();
+        for voice in &mut self.sustained {
             let instrument = &self.instruments[voice.instrument];
-            let Heard { inputs, pan, distance, still_before, still } =
-                self.motion.heard(voice.instrument, instrument.player);
+            let ControlValues { inputs, pan, distance, still_before, still } =
+                self.controls.values(voice.instrument, instrument.player);
             let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
-            let drives = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
+            let drives = self.body_index[voice.instrument].filter(|_| instrument.graph.drives());
             match (voice.state, still) {
                 (VoiceState::Free, true) => continue,
                 (VoiceState::Free, false) => {
                     voice.begin(voice.instrument, gains);
                     let calm = Inputs { position: inputs.position, ..Inputs::default() };
                     let seed = hash_words(&[self.seed, voice.instrument as u64, u64::MAX]);
-                    instrument.graph.begin(Part::Hit, &mut voice.operators, &calm, seed, time, sample_rate);
+                    instrument.graph.begin(Bus::Voice, &mut voice.operators, &calm, seed, time, sample_rate);
                     if let Some(body) = drives {
-                        self.bodies[body].push(instrument, &inputs, gains, clock);
+                        self.bodies[body].start_drive(instrument, &inputs, gains, clock);
                     }
                 }
-                // The levels had one grid interval to reach their value in still air; what rings, rings out.
+                // The levels had one grid interval to reach their value in still air; modal sound decays by itself.
                 (_, true) if still_before => {
                     voice.state = VoiceState::Free;
                     continue;
                 }
                 _ => {
                     if let Some(body) = drives {
-                        self.bodies[body].push_on(instrument, &inputs, gains, clock);
+                        self.bodies[body].continue_drive(instrument, &inputs, gains, clock);
                     }
                 }
             }
             voice.gains = gains;
             voice.inputs = inputs;
-            // Only the wind and the slide end it.
+            // Only wind and slides end a sustained voice.
             voice.state = VoiceState::Sounding;
-            instrument.graph.control(Part::Hit, &mut voice.operators, &voice.inputs, time, sample_rate);
+            instrument.graph.control(Bus::Voice, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
     }
 
-    /// Lets the quietest partials go while more ring than may.
-    fn keep_few(&mut self) {
+    /// Releases the quietest partials while more than the bound ring.
+    fn steal_partials(&mut self) {
         let mut ringing = self.partials();
         while ringing > self.most_partials {
             let quietest = self.bodies.iter().enumerate().filter_map(|(i, body)| {
@@ -435,16 +436,16 @@ impl Synth {
                 Some((i, group, amplitude * body.loudest_gain()))
             });
             let Some((body, group, _)) = quietest.min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
-            ringing -= self.bodies[body].bank.leave(group);
+            ringing -= self.bodies[body].bank.release(group);
         }
     }
 
     fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
-        let at = (self.position % CONTROL as u64) as usize;
-        let voices = self.voices[..self.used].iter_mut().chain(&mut self.lasting);
+        let at = (self.position % CONTROL_PERIOD as u64) as usize;
+        let voices = self.voices[..self.used_voices].iter_mut().chain(&mut self.sustained);
         for voice in voices.filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
-            let body = self.body_of[voice.instrument].filter(|_| instrument.graph.drives());
+            let body = self.body_index[voice.instrument].filter(|_| instrument.graph.drives());
             let force = body.map(|body| self.bodies[body].force(at));
             if !voice.mix(instrument, &mut self.blocks, left, right, force) {
                 self.faults += 1;
@@ -475,7 +476,7 @@ fn is_finite(command: &SoundCommand) -> bool {
             [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
         }
         SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
-        SoundCommand::WindExposure(across) => across.share.is_finite(),
+        SoundCommand::WindExposure(exposure) => exposure.share.is_finite(),
         SoundCommand::Silence { .. } => true,
     }
 }

@@ -1,4 +1,4 @@
-//! The highest point of the wave between samples.
+//! True peak: the highest point of the wave between samples (ITU-R BS.1770, annex 2).
 //!
 //! A wave may rise above its samples by 3 dB and more, and a converter plays the wave. It is looked at four times a sample
 //! (ITU-R BS.1770, annex 2): the samples themselves and three points between each two,
@@ -53,8 +53,8 @@ impl TruePeak {
         self.most * f64::from(peak(frames.as_flattened()).max(peak(self.last[..TAPS].as_flattened())))
     }
 
-    /// Takes frames in without looking.
-    pub fn take(&mut self, frames: &[[f32; 2]]) {
+    /// Adds frames without measuring.
+    pub fn push_all(&mut self, frames: &[[f32; 2]]) {
         for frame in &frames[frames.len().saturating_sub(TAPS)..] {
             self.push(*frame);
         }

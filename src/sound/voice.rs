@@ -1,22 +1,22 @@
-//! One voice: what a hit sounds like apart from what it sets ringing, or one instrument that the wind plays.
+//! A voice: the sound of an impact beside its modal part, or the sustained sound of wind or a slide on one instrument.
 
-use super::graph::{Block, CONTROL, Graph, Part, State};
+use super::graph::{AudioBlock, Bus, CONTROL_PERIOD, Graph, OperatorState};
 use super::instrument::Instrument;
 use super::timbre::{Inputs, MAX_NODES};
 use super::true_peak::peak;
 
-/// Below this a voice is silent: −100 dB of full scale.
+/// A voice is silent below this: −100 dB of full scale.
 const INAUDIBLE: f32 = 1e-5;
-/// Grid points of silence after which a voice is over.
+/// Grid points of silence after which a voice ends.
 const QUIET_GRID_POINTS: u32 = 4;
-/// A voice beyond this is broken, not loud.
-pub(super) const BROKEN: f32 = 1000.0;
+/// Louder samples are invalid, not loud.
+pub(super) const FAULT_LEVEL: f32 = 1000.0;
 
 pub(super) struct Voice {
     pub state: VoiceState,
     pub instrument: usize,
     pub inputs: Inputs,
-    pub operators: [State; MAX_NODES],
+    pub operators: [OperatorState; MAX_NODES],
     /// Left and right, distance included.
     pub gains: [f32; 2],
     /// Multiplies the voice; falls while it fades.
@@ -42,7 +42,7 @@ impl Voice {
             state: VoiceState::Free,
             instrument: 0,
             inputs: Inputs::default(),
-            operators: std::array::from_fn(|_| State::new(0)),
+            operators: std::array::from_fn(|_| OperatorState::new(0)),
             gains: [0.0; 2],
             fade: 1.0,
             fade_step: 0.0,
@@ -52,7 +52,7 @@ impl Voice {
         }
     }
 
-    /// Takes up its place; the caller fills in inputs and operators.
+    /// Starts; the caller sets inputs and operators.
     pub fn begin(&mut self, instrument: usize, gains: [f32; 2]) {
         self.state = VoiceState::Sounding;
         (self.instrument, self.gains) = (instrument, gains);
@@ -60,7 +60,7 @@ impl Voice {
         (self.peak, self.last_peak, self.quiet) = (0.0, 0.0, 0);
     }
 
-    /// Falls to silence in `samples` and is free then.
+    /// Fades out in `samples`; then it is free.
     pub fn fade_out(&mut self, samples: f32) {
         if self.state == VoiceState::Sounding {
             self.state = VoiceState::Fading;
@@ -68,12 +68,12 @@ impl Voice {
         }
     }
 
-    /// How loud it is now, to choose the quietest.
+    /// Present loudness, for stealing the quietest.
     pub fn loudness(&self) -> f32 {
         self.gains[0].max(self.gains[1]) * self.fade * self.peak.max(self.last_peak)
     }
 
-    /// A grid point: is it over?
+    /// Updates the state at a grid point: a silent voice becomes free.
     pub fn grid_point(&mut self, graph: &Graph) {
         let silent = self.peak < INAUDIBLE && !graph.holds(&self.operators);
         self.quiet = if silent { self.quiet + 1 } else { 0 };
@@ -83,27 +83,28 @@ impl Voice {
         self.last_peak = std::mem::take(&mut self.peak);
     }
 
-    /// Adds as many samples to the mix as it has, and to the force on what rings. `false`: bad numbers were found,
-    /// nothing was added and the voice is free.
+    /// Adds its next samples to the mix, and to the force on the modal bank. `false` for invalid numbers: nothing was added and the
+    /// voice is free.
     #[must_use]
     pub fn mix(
         &mut self,
         instrument: &Instrument,
-        blocks: &mut [Block; MAX_NODES],
+        blocks: &mut [AudioBlock; MAX_NODES],
         left: &mut [f32],
         right: &mut [f32],
         force: Option<&mut [f32]>,
     ) -> bool {
         let n = left.len();
-        let (out, push) = instrument.graph.render(Part::Hit, &mut self.operators, &[0.0; CONTROL][..n], blocks, n);
+        let (out, push) =
+            instrument.graph.render(Bus::Voice, &mut self.operators, &[0.0; CONTROL_PERIOD][..n], blocks, n);
         let push = push.unwrap_or_default();
-        // What is not a number is not within it either.
-        if ![out, push].into_iter().flatten().fold(true, |fine, x| fine & (x.abs() <= BROKEN)) {
+        // The comparison is false for NaN too.
+        if ![out, push].into_iter().flatten().fold(true, |valid, x| valid & (x.abs() <= FAULT_LEVEL)) {
             self.state = VoiceState::Free;
             return false;
         }
         self.peak = self.peak.max(peak(out)).max(peak(push));
-        let mut fades = [1.0; CONTROL];
+        let mut fades = [1.0; CONTROL_PERIOD];
         let fades = &mut fades[..n];
         if self.fade != 1.0 || self.fade_step != 0.0 {
             for fade in &mut *fades {

@@ -1,25 +1,25 @@
-//! How loud the kiosk may be: a visitor's steps, the site's cap, the staff's mute.
+//! Volume of the kiosk: a visitor's steps, the site's limit, the staff's mute.
 //!
 //! ```text
-//! volume = min(min(default, cap) + steps · step, cap) − ease          cap = min(LAeq_max − (S + PROGRAMME), 0 dB)
+//! volume = min(min(default, cap) + steps · step, cap) − attenuation          cap = min(LAeq_max − (S + PROGRAMME), 0 dB)
 //! ```
 //!
 //! S is what a sound meter shows at the visitor's ear, dB(A), for a sine at full scale (1 kHz, both sides) while the
 //! volume is 0 dB: the calibration. Exhibits are levelled to one loudness, [`PROGRAMME`], so the cap keeps
-//! an exhibit's mean at the site's limit whatever a visitor presses; should one be louder than that, `ease` brings the mean of the
-//! last minute down to it. Without a calibration there is no cap.
+//! an exhibit's mean at the site's limit whatever a visitor presses. If one is louder, the attenuation brings the mean of the
+//! last minute down to the limit. Without a calibration there is no cap.
 //!
-//! Whoever leaves takes his steps along: the next visitor finds the default. A mute stays until staff end it.
+//! A visitor's steps end with the visit: the next visitor finds the default. A mute stays until staff end it.
 
 /// Loudness that exhibits are levelled to, LUFS (EBU R 128), which for this purpose is dB of a full-scale sine.
 pub const PROGRAMME: f64 = -23.0;
-/// The mean comes down so fast, dB/s, and is given back so fast.
-const EASE: f64 = 0.5;
-const GIVE_BACK: f64 = 0.05;
-/// Most that is eased, dB.
-const MOST_EASED: f64 = 24.0;
+/// Rates at which the attenuation grows and recovers, dB/s.
+const ATTENUATION_RATE: f64 = 0.5;
+const RECOVERY_RATE: f64 = 0.05;
+/// Greatest attenuation, dB.
+const MAX_ATTENUATION: f64 = 24.0;
 
-/// What the site says about loudness.
+/// Loudness settings of a site.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeSettings {
     /// Volume that every visitor finds, dB, at most 0.
@@ -39,27 +39,27 @@ pub struct VolumeSettings {
 pub struct Volume {
     settings: VolumeSettings,
     steps: i32,
-    ease_db: f64,
+    attenuation_db: f64,
     muted: bool,
 }
 
 impl Volume {
     /// As a visitor finds it.
     pub fn new(settings: VolumeSettings) -> Self {
-        Self { settings, steps: 0, ease_db: 0.0, muted: false }
+        Self { settings, steps: 0, attenuation_db: 0.0, muted: false }
     }
 
-    /// The site says something else: a visitor's steps and what was eased are begun anew, the staff's mute stays.
+    /// Applies other settings. Steps and attenuation restart; the staff's mute stays.
     pub fn reconfigure(&mut self, settings: VolumeSettings) {
         *self = Self { muted: self.muted, ..Self::new(settings) };
     }
 
-    /// So many steps louder, or softer: as far as there are steps, and not beyond what is heard of them.
+    /// Changes the volume by `by` steps, within the number of steps and the cap.
     pub fn step(&mut self, by: i32) {
         let most = i32::try_from(self.settings.steps).unwrap_or(i32::MAX);
         // Steps that the cap swallows would have to be taken back before a step down is heard.
-        let heard = ((self.cap_db() - self.base_db()) / self.settings.step_db).ceil();
-        self.steps = self.steps.saturating_add(by).clamp(-most, most.min(heard as i32));
+        let useful = ((self.cap_db() - self.base_db()) / self.settings.step_db).ceil();
+        self.steps = self.steps.saturating_add(by).clamp(-most, most.min(useful as i32));
     }
 
     /// Steps above the default.
@@ -95,20 +95,21 @@ impl Volume {
 
     /// Now, dB, muted or not.
     pub fn db(&self) -> f64 {
-        let asked = self.base_db() + f64::from(self.steps) * self.settings.step_db;
-        asked.min(self.cap_db()) - self.ease_db
+        let requested = self.base_db() + f64::from(self.steps) * self.settings.step_db;
+        requested.min(self.cap_db()) - self.attenuation_db
     }
 
-    /// What is taken off because the last minute was too loud, dB.
+    /// Present attenuation because the last minute was too loud, dB.
     pub fn attenuation_db(&self) -> f64 {
-        self.ease_db
+        self.attenuation_db
     }
 
-    /// Heeds the mean level of the last minute, dB of a full-scale sine ([`super::Exposure::minute`]), for some seconds.
+    /// Updates the attenuation by the mean level of the last minute, dB of a full-scale sine ([`super::Exposure::minute`]), over
+    /// some seconds.
     pub fn apply_exposure_limit(&mut self, minute_db: f64, seconds: f64) {
         let too_loud = self.settings.full_scale_db_spl.is_some_and(|s| s + minute_db > self.settings.max_laeq_db);
-        let change = if too_loud { EASE } else { -GIVE_BACK };
-        self.ease_db = (self.ease_db + change * seconds).clamp(0.0, MOST_EASED);
+        let change = if too_loud { ATTENUATION_RATE } else { -RECOVERY_RATE };
+        self.attenuation_db = (self.attenuation_db + change * seconds).clamp(0.0, MAX_ATTENUATION);
     }
 
     /// A level of dB of a full-scale sine as dB(A) at the visitor's ear; `None` without a calibration.

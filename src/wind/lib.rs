@@ -10,17 +10,17 @@
 //! | module or type | contents |
 //! |---|---|
 //! | [`breath`] | [`breath::Breath`]: lips, direction, speed, and spreading law |
-//! | [`front`] | travelling front of a starting jet |
-//! | [`weather`] | ambient winds: fans, draughts, turbulence |
+//! | [`jet_front`] | travelling front of a starting jet |
+//! | [`ambient`] | ambient winds: fans, draughts, turbulence |
 //! | [`Surface`], [`Shelter`] | surfaces that take wind forces, and meshes that shelter them |
 //! | [`patches`] | patches of a surface |
 //! | [`force`] | [`force::WindField`]: forces of all winds on bodies |
 //!
 //! ```
 //! use soffio_math::DVec3;
-//! use soffio_wind::breath::{Breath, Law};
+//! use soffio_wind::breath::{Breath, SpreadLaw};
 //!
-//! let mouth = Breath { mouth: DVec3::ZERO, direction: DVec3::X, lip_diameter: 0.01, speed: 10.0, law: Law::Jet };
+//! let mouth = Breath { mouth: DVec3::ZERO, direction: DVec3::X, lip_diameter: 0.01, speed: 10.0, law: SpreadLaw::Jet };
 //! let at = |distance: f64| mouth.velocity(distance * DVec3::X).length();
 //! // At the lips the jet has its full speed; far away its speed falls as 1/x.
 //! assert!((at(0.01) - 10.0).abs() < 1e-9);

@@ -9,8 +9,8 @@ use soffio_math::noise::Random;
 use soffio_math::{PI, StateHash, amplitude_to_db, db_to_amplitude, sin};
 use soffio_sound::modal::fuses;
 use soffio_sound::{
-    AWeighting, CEILING, Exposure, InstrumentSpec, LoudnessMeter, PROGRAMME, Preset, ReverbSpec, SUDDEN, SoundBody,
-    SoundCommand, SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
+    AWeighting, CEILING, Exposure, InstrumentSpec, LoudnessMeter, ONSET_CEILING, PROGRAMME, Preset, ReverbSpec,
+    SoundBody, SoundCommand, SoundMaterial, Strike, Synth, Volume, VolumeSettings, weighted_level,
 };
 
 const RATE: u32 = 48_000;
@@ -84,7 +84,7 @@ fn no_true_peak_passes_minus_one_decibel() {
 
 #[test]
 fn nothing_breaks_a_silence_at_full_loudness() {
-    // A bang 40 dB above full scale after 0.3 s of silence. What may come at once is SUDDEN; from there 80 dB/s.
+    // A bang 40 dB above full scale after 0.3 s of silence. What may come at once is ONSET_CEILING; from there 80 dB/s.
     const RATE_DB: f64 = 80.0;
     // The envelope is read in windows of 1 ms, and the look-ahead is 1.6 ms.
     const SLACK_DB: f64 = 0.3;
@@ -94,7 +94,7 @@ fn nothing_breaks_a_silence_at_full_loudness() {
     let onset = out.iter().position(|s| s.abs() > 1e-3).expect("a bang") / 2;
     let loudest = |ms: usize| amplitude_to_db(peak(&out[2 * (onset + 48 * ms)..2 * (onset + 48 * (ms + 1))]));
     for ms in 0..200 {
-        let most = (amplitude_to_db(SUDDEN) + RATE_DB * (ms as f64 + 3.0) / 1000.0).min(-1.0) + SLACK_DB;
+        let most = (amplitude_to_db(ONSET_CEILING) + RATE_DB * (ms as f64 + 3.0) / 1000.0).min(-1.0) + SLACK_DB;
         assert!(loudest(ms) < most, "{ms} ms after the onset: {} dB, at most {most}", loudest(ms));
     }
     let (at_once, later) =
@@ -110,7 +110,7 @@ fn nothing_breaks_a_silence_at_full_loudness() {
     }
     let latency = soft.latency();
     let (soft, dry) = (render(&mut soft, 4_800), render(&mut dry, 4_800));
-    assert!(peak(&dry) > 0.03 && peak(&dry) < 0.5 * SUDDEN, "{}", peak(&dry));
+    assert!(peak(&dry) > 0.03 && peak(&dry) < 0.5 * ONSET_CEILING, "{}", peak(&dry));
     assert_eq!(soft[2 * latency..], dry[..dry.len() - 2 * latency]);
 }
 
@@ -246,7 +246,7 @@ fn the_a_weighting_is_the_standards() {
     for rate in [44_100.0, 48_000.0, 96_000.0] {
         for (frequency, wanted, above, below) in table {
             let mut weighting = AWeighting::new(rate);
-            let by_formula = amplitude_to_db(weighting.size(frequency, rate));
+            let by_formula = amplitude_to_db(weighting.magnitude(frequency, rate));
             let frames = rate as usize;
             let mut power = 0.0;
             for n in 0..2 * frames {

@@ -70,7 +70,7 @@ fn the_synth_never_allocates() {
 mod callback {
     use super::*;
     use soffio_devices::audio::output::{Engine, open};
-    use soffio_devices::audio::{ClockMap, Heard, Knobs, LOUDEST, Words, input};
+    use soffio_devices::audio::{ClockMap, Knobs, LOUDEST, MicrophoneSamples, Utterance, input};
     use std::sync::Arc;
 
     fn engine(rate: u32, generation: u64) -> Engine {
@@ -151,12 +151,12 @@ mod callback {
         const SAME: f32 = 1e-6;
         let (mut player, mut voice, mut workshop) = open(48_000, 2, Arc::new(Knobs::new(1.0)));
         workshop.exchange(Some(engine(48_000, 0)));
-        let tone = |hz: f32, frames: usize| Words {
+        let tone = |hz: f32, frames: usize| Utterance {
             samples: (0..frames).map(|i| LOUDEST * (std::f32::consts::TAU * hz * i as f32 / 48_000.0).sin()).collect(),
             sample_rate: 48_000,
         };
         let (first, second, none) = (tone(500.0, 96_000), tone(900.0, 24_000), tone(1.0, 0));
-        let other_rate = Words { sample_rate: 44_100, ..second.clone() };
+        let other_rate = Utterance { sample_rate: 44_100, ..second.clone() };
         // How much of a tone is in stereo frames, 0 to 1, from whole periods of both tones.
         let part = |stereo: &[f32], hz: f32| {
             let sum = stereo.chunks_exact(2).enumerate().fold((0.0_f64, 0.0_f64), |(c, s), (i, frame)| {
@@ -230,7 +230,7 @@ mod callback {
         ] {
             let (mut recorder, mut capture) = input::open(48_000, 2, channels);
             assert_no_alloc(|| recorder.record(&samples));
-            let mut heard = Heard::default();
+            let mut heard = MicrophoneSamples::default();
             assert_eq!(capture.read(&mut heard), 1000);
             assert_eq!(capture.capsules(), 1 + usize::from(second.is_some()), "channels {channels:?}");
             assert_eq!(heard.samples, [first; 1000], "channels {channels:?}");
@@ -251,7 +251,7 @@ mod callback {
         let mut pacer = soffio_kiosk::live::step_scheduler::StepScheduler::default();
         let mut random = soffio_math::noise::Random::new(5);
         let (mut now, mut sent, mut heard_in_all) = (0.0, 0_u64, 0_u64);
-        let mut heard = Heard::default();
+        let mut heard = MicrophoneSamples::default();
         while now < 3600.0 {
             let nap = if (now..now + 0.02).contains(&1800.0) { 1.0 } else { random.range(1e-4, 0.012) };
             now += nap;
@@ -310,7 +310,7 @@ mod server {
     use std::time::{Duration, Instant};
 
     use super::*;
-    use soffio_devices::audio::{AudioIo, AudioSettings, DeviceState, Heard};
+    use soffio_devices::audio::{AudioIo, AudioSettings, DeviceState, MicrophoneSamples};
 
     fn settings() -> AudioSettings {
         AudioSettings {
@@ -329,7 +329,7 @@ mod server {
         const JITTER: u64 = 16;
         const APART: u64 = 24_000;
         let mut io = AudioIo::start(&settings(), synth);
-        let mut heard = Heard::default();
+        let mut heard = MicrophoneSamples::default();
         let began = Instant::now();
         let mut step = 0u64;
         while step < 240 * 8 {
@@ -345,7 +345,7 @@ mod server {
             }
         }
         let status = io.status();
-        let Heard { samples: heard, reference, .. } = heard;
+        let MicrophoneSamples { samples: heard, reference, .. } = heard;
         println!("{status:?}, heard {} samples", heard.len());
         assert!(matches!(status.output, DeviceState::Ok { .. }) && matches!(status.input, DeviceState::Ok { .. }));
         assert_eq!(heard.len(), reference.len());
@@ -385,7 +385,7 @@ mod server {
                 std::thread::sleep(Duration::from_millis(5));
             }
         };
-        let hears = |io: &mut AudioIo| io.read_microphone(&mut Heard::default()).is_some();
+        let hears = |io: &mut AudioIo| io.read_microphone(&mut MicrophoneSamples::default()).is_some();
         let mut io = AudioIo::start_with(&settings(), false, synth);
         until(&mut io, "it begins closed", &|io| io.status().input == DeviceState::Closed);
         assert!(!hears(&mut io));
@@ -406,7 +406,7 @@ mod server {
     #[ignore = "needs a PulseAudio that is ended and started again while it runs"]
     fn a_lost_server_is_found_again() {
         let mut io = AudioIo::start(&settings(), synth);
-        let mut heard = Heard::default();
+        let mut heard = MicrophoneSamples::default();
         let (mut ok, mut lost, mut again) = (false, false, false);
         let began = Instant::now();
         while !again && began.elapsed() < Duration::from_secs(40) {

@@ -153,7 +153,7 @@ fn table(count: usize, (low, high): (f64, f64), seed: u64) -> Vec<Partial> {
 fn bank(level: Level, count: usize) -> f64 {
     let rate = f64::from(SAMPLE_RATE);
     let mut bank = Bank::new(&table(count, (40.0, 16_000.0), 1), rate, level);
-    let mut ahead = vec![0.0; Bank::reach(1e-3, rate)];
+    let mut ahead = vec![0.0; Bank::look_ahead_len(1e-3, rate)];
     bank.strike(|_| 1e-3, 1e-3, BLOCK, &mut ahead);
     let blocks = 4_000_000 / (count * BLOCK) + 1;
     let mut out = [0.0; BLOCK];
@@ -186,7 +186,7 @@ fn reverb_cost() -> f64 {
     let start = ThreadTime::now();
     let mut frames: Vec<[f32; 2]> = noise.iter().map(|x| [*x, -*x]).collect();
     for step in frames.chunks_mut(SAMPLES_PER_STEP as usize) {
-        reverb.answer(black_box(step));
+        reverb.process(black_box(step));
     }
     100.0 * start.elapsed().as_secs_f64() * rate / noise.len() as f64
 }

@@ -7,7 +7,7 @@ use super::microphone::{judge_blow, judge_room};
 use indicatif::{ProgressBar, ProgressStyle};
 use soffio_config::{Config, remedies};
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Reason};
-use soffio_devices::audio::{AudioIo, DeviceState, Heard};
+use soffio_devices::audio::{AudioIo, DeviceState, MicrophoneSamples};
 use soffio_kiosk::fleet::persisted;
 use soffio_kiosk::pages::fonts::{self, Script};
 use soffio_kiosk::pages::languages::languages_without_glyphs;
@@ -115,7 +115,7 @@ fn reading(config: &Config) -> Finding {
 
 fn sound(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
     let mut audio = AudioIo::start(&config.audio, Synth::silent);
-    let mut heard = Heard::default();
+    let mut heard = MicrophoneSamples::default();
     let mut rate = None;
     let began = Instant::now();
     let mut opened = None;
@@ -163,7 +163,7 @@ fn sound(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
 /// Runs the audio self-test, and compares the result with the stored reference.
 fn audio_self_test(config: &Config, audio: &mut AudioIo) -> Finding {
     let what = "audio self-test";
-    let (began, mut run, mut recorded) = (Instant::now(), SelfTestRun::default(), Heard::default());
+    let (began, mut run, mut recorded) = (Instant::now(), SelfTestRun::default(), MicrophoneSamples::default());
     run.begin(0.0);
     let outcome = loop {
         std::thread::sleep(LOOK);
@@ -221,7 +221,7 @@ fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate>
     let began = Instant::now();
     let meter = ProgressBar::new(METER)
         .with_style(ProgressStyle::with_template("[{bar:40}] {msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let (mut steps, mut heard): (Vec<BlowEstimate>, _) = (Vec::new(), Heard::default());
+    let (mut steps, mut heard): (Vec<BlowEstimate>, _) = (Vec::new(), MicrophoneSamples::default());
     let (mut breaths, mut quiet_since, mut clips) = (0, Instant::now(), 0);
     // Until a moment after the last breath, or until nobody blows any more.
     while began.elapsed() < PATIENCE && (breaths < BREATHS || quiet_since.elapsed() < AFTER) {

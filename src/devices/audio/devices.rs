@@ -87,13 +87,13 @@ fn host(id: HostId) -> Option<Rc<Host>> {
     if id != HostId::PulseAudio {
         return open();
     }
-    SERVER.with_borrow_mut(|kept| {
-        *kept = kept.take().filter(|host| host.output_devices().is_ok()).or_else(open);
-        kept.clone()
+    SERVER.with_borrow_mut(|present| {
+        *present = present.take().filter(|host| host.output_devices().is_ok()).or_else(open);
+        present.clone()
     })
 }
 
-/// Whoever owns the machine's sound: the sound server if there is one, or else the driver. What a driver calls its
+/// The host API: the sound server if there is one, else the driver. What a driver calls its
 /// default beside a server is that server again, by a longer way.
 fn owner() -> impl Iterator<Item = Rc<Host>> {
     let answers = |host: &Host| host.output_devices().is_ok_and(|mut devices| devices.next().is_some());

@@ -1,11 +1,11 @@
-//! The microphone: a real-time thread that copies its capsules into a ring, a pair a frame.
+//! Microphone input: a real-time callback that copies its one or two channels into a ring buffer.
 
 use cpal::{FromSample, Sample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use soffio_simulation::Microphone;
 
-/// Room in the ring, s: as long as the kiosk may stand still without losing what was heard.
+/// Capacity of the ring, s: the longest stall of the kiosk without lost samples.
 const RING: u32 = 2;
 
 /// The real-time end: everything that the microphone's callback touches.
@@ -19,45 +19,49 @@ pub struct Recorder {
 }
 
 /// The kiosk's end.
-pub struct Ears {
+pub struct MicrophoneReader {
     ring: Consumer<[f32; 2]>,
     sample_rate: u32,
     two: bool,
 }
 
-/// The two ends of a microphone. Channels count from 1. The first is the capsule's own (0 takes all: two are two capsules,
-/// more are mixed, as is where the device lacks the channel); the other is a second capsule's (0 for none, as is one that the
-/// device lacks, and any beside a mix).
-pub fn open(sample_rate: u32, channels: usize, wanted: [u16; 2]) -> (Recorder, Ears) {
+/// Opens both ends of a microphone. `wanted`: channels of the first and the second capsule, from 1.
+///
+/// If the first is 0 or the device lacks it, all channels are mixed; but with [0, 0] two channels are taken as two capsules. The
+/// second is 0 for none. It is ignored beside a mix, or if the device lacks it.
+pub fn open(sample_rate: u32, channels: usize, wanted: [u16; 2]) -> (Recorder, MicrophoneReader) {
     let (to, from) = RingBuffer::new((RING * sample_rate) as usize);
     let channels = channels.max(1);
     let wanted = if wanted == [0, 0] && channels == 2 { [1, 2] } else { wanted };
     let [channel, second] =
         wanted.map(|number| usize::from(number).checked_sub(1).filter(|channel| *channel < channels));
     let second = second.filter(|_| channel.is_some() && channel != second);
-    (Recorder { ring: to, channels, channel, second }, Ears { ring: from, sample_rate, two: second.is_some() })
+    (
+        Recorder { ring: to, channels, channel, second },
+        MicrophoneReader { ring: from, sample_rate, two: second.is_some() },
+    )
 }
 
-/// What was heard since the last look, and what the loudspeaker played meanwhile. All at the microphone's rate.
+/// Samples since the last read, and the output of the same time, all at the microphone's rate.
 #[derive(Clone, Debug, Default)]
-pub struct Heard {
+pub struct MicrophoneSamples {
     /// One capsule, full scale ±1.
     pub samples: Vec<f32>,
     /// The second one, as long; empty where there is one only.
     pub second: Vec<f32>,
-    /// What was played, mono, as long; empty without a loudspeaker.
+    /// Output signal, mono, as long; empty without an output device.
     pub reference: Vec<f32>,
 }
 
-impl Heard {
-    /// Forgets it.
+impl MicrophoneSamples {
+    /// Removes all samples.
     pub fn clear(&mut self) {
         self.samples.clear();
         self.second.clear();
         self.reference.clear();
     }
 
-    /// The `i`-th of `n` equal shares, in order and without a gap, as a step hears it at `sample_rate` Hz.
+    /// The `i`-th of `n` consecutive equal parts, as the microphone input of a step at `sample_rate` Hz.
     pub fn share(&self, i: u64, n: u64, sample_rate: u32) -> Microphone<'_> {
         let part = |all: &'_ [f32]| {
             let bound = |k: u64| (all.len() as u64 * k / n) as usize;
@@ -82,13 +86,13 @@ impl Recorder {
                 None => frame.iter().map(|s| f32::from_sample(*s)).sum::<f32>() * share,
             };
             let second = self.second.map_or(0.0, |channel| f32::from_sample(frame[channel]));
-            // A full ring means that nobody listens.
+            // A full ring means that the kiosk has stalled.
             let _ = self.ring.push([sample, second]);
         }
     }
 }
 
-impl Ears {
+impl MicrophoneReader {
     /// Hz.
     pub fn sample_rate(&self) -> u32 {
         self.sample_rate
@@ -99,8 +103,8 @@ impl Ears {
         1 + usize::from(self.two)
     }
 
-    /// Appends what was heard since the last call; how many samples of each capsule that is.
-    pub fn read(&mut self, into: &mut Heard) -> usize {
+    /// Appends the samples since the last call. Returns their number for each capsule.
+    pub fn read(&mut self, into: &mut MicrophoneSamples) -> usize {
         let count = self.ring.slots();
         let Ok(chunk) = self.ring.read_chunk(count) else { return 0 };
         let (head, tail) = chunk.as_slices();

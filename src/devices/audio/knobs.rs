@@ -1,10 +1,10 @@
-//! What the kiosk turns while it plays, and what it reads off: both outlive a loudspeaker that is pulled out.
+//! Real-time parameters and meters shared with the output's callback; they outlive an output device.
 //!
-//! One number each, so atomics do: the callback waits for nobody.
+//! Each is one atomic number, so the callback never waits.
 
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicU64, Ordering};
 
-/// Volume and night go in, the A-weighted energy of what was played comes out.
+/// Volume and night mode to the callback, A-weighted energy of the output from it.
 #[derive(Debug)]
 pub struct Knobs {
     /// Linear, bits of an f32.
@@ -29,12 +29,12 @@ impl Knobs {
         knobs
     }
 
-    /// Linear, 0 to 1; the loudspeaker glides there.
+    /// Linear, 0 to 1; the output fades to it.
     pub fn set_volume(&self, volume: f32) {
         self.volume.store(volume.clamp(0.0, 1.0).to_bits(), Ordering::Relaxed);
     }
 
-    /// The night's sound or the day's.
+    /// Turns night mode on or off.
     pub fn set_night(&self, night: bool) {
         self.night.store(night, Ordering::Relaxed);
     }

@@ -1,31 +1,31 @@
-//! Microphone and loudspeaker: the only module that names the audio crate.
+//! Audio input and output by cpal; no other module uses that crate.
 //!
 //! ```text
 //! kiosk thread                    supervisor thread              real-time threads
-//! AudioIo::send ── commands ring ─────────────────────────────→ Player (owns the Synth) → loudspeaker
-//! AudioIo::read_microphone ←── reference ring ───────────────── Player: what was played, mono
+//! AudioIo::send ── commands ring ─────────────────────────────→ Player (owns the Synth) → output device
+//! AudioIo::read_microphone ←── reference ring ───────────────── Player: output signal, mono
 //!                          ←── microphone ring ──────────────── Recorder ← microphone
 //! AudioIo::set_instruments ──→ builds the Synth ── synth ring → Player; the old one ── retired ring ─→ dropped here
-//! AudioIo::say ────── words ring ─────────────────────────────→ Player: over the work, and into the reference
-//!                                                               Player: mono ── tail ring ─→ Hearing → hearing loop
+//! AudioIo::say ────── speech ring ────────────────────────────→ Player: mixed in, and into the reference
+//!                                                               Player: mono ── tail ring ─→ HearingLoop
 //! AudioIo::knobs ←──────────── volume, night, energy ───────────→ Player
 //! AudioIo::status ←──────────── opens, watches, reopens
 //! ```
 //!
-//! Invariant: a missing, lost or silent device never stops the kiosk. The supervisor tries again for ever, with growing
-//! pauses, and says what it waits for.
+//! Invariant: a missing, lost or silent device never stops the kiosk. The supervisor retries for ever, with growing pauses, and
+//! reports the reason in [`AudioStatus`].
 //!
 //! Real-time: the callbacks ([`output::Player::play`], [`input::Recorder::record`]) never allocate, free, lock, log or
 //! call the system (`tests/suite/realtime.rs`).
 
 mod clock;
 pub mod devices;
-pub mod hearing;
+pub mod hearing_loop;
 pub mod input;
 mod knobs;
-mod mouth;
 pub mod output;
 mod reference;
+mod speech_mixer;
 mod supervisor;
 
 use std::sync::atomic::Ordering;
@@ -34,78 +34,78 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 pub use clock::ClockMap;
-pub use input::Heard;
+pub use input::MicrophoneSamples;
 pub use knobs::Knobs;
-pub use mouth::{LOUDEST, Words};
 pub use reference::ReferenceTap;
 pub use soffio_config::AudioSettings;
+pub use speech_mixer::{LOUDEST, Utterance};
 use supervisor::{Link, Request, Supervisor};
 
 use soffio_math::db_to_amplitude;
 use soffio_sound::{SoundCommand, Synth};
 
-/// Builds the synth for the rate of a loudspeaker, Hz.
+/// Builds the synth for the rate of an output device, Hz.
 pub type SynthFactory = Box<dyn Fn(u32) -> Synth + Send>;
 
-/// How the devices are.
+/// State of the audio devices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AudioStatus {
     /// Microphone.
     pub input: DeviceState,
-    /// Loudspeaker.
+    /// Output device.
     pub output: DeviceState,
-    /// The second output, where the site has one.
+    /// The second output, if the site has one.
     pub hearing_loop: Option<DeviceState>,
-    /// Gaps in either since the start: the machine was too slow.
+    /// Overruns and underruns since the start: the machine was too slow.
     pub xruns: u64,
-    /// Times that a loudspeaker was opened: more than once when it was lost and came back.
+    /// Number of times that an output device was opened.
     pub openings: u64,
-    /// Capsules of the microphone that listen: 0 without one.
+    /// Number of microphone capsules in use, 0 without a microphone.
     pub capsules: usize,
-    /// From a step to the air; `None` until the loudspeaker has played.
+    /// Latency from a step to the air; `None` before the first output.
     pub delay: Option<SoundDelay>,
-    /// Shortest block that the loudspeaker's driver offers, s; `None` where it does not say.
+    /// Shortest block that the output's driver offers, s, if known.
     pub shortest_block_s: Option<f64>,
-    /// Commands that were not heard: more than the rings hold.
+    /// Commands dropped because a ring was full.
     pub lost: u64,
 }
 
-/// What a sound waits for between the step that causes it and the air, s.
+/// Latency of a sound from the step that causes it to the air, by its parts, s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SoundDelay {
-    /// The step: a hit may be as old as its step when it is sent.
+    /// The step: an impact may be as old as its step when it is sent.
     pub step_s: f64,
     /// The longest block so far: a sound starts on its own sample of the next one.
     pub block_s: f64,
     /// The limiter's look-ahead.
     pub limiter_s: f64,
-    /// What the device itself reports, from the callback to the converter; `None` where it reports nothing.
+    /// Latency of the device from the callback to the converter, if it reports one.
     pub device_s: Option<f64>,
 }
 
 impl SoundDelay {
-    /// All of it, s.
+    /// Sum of all parts, s.
     pub fn total_s(&self) -> f64 {
         self.step_s + self.block_s + self.limiter_s + self.device_s.unwrap_or(0.0)
     }
 }
 
-/// How one device is.
+/// State of one device.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum DeviceState {
-    /// Not looked for yet.
+    /// Not opened yet.
     #[default]
     Starting,
-    /// Works.
+    /// Open.
     Ok {
-        /// As the system calls it.
+        /// Name in the system.
         name: String,
         /// Hz.
         sample_rate: u32,
     },
-    /// Does not work, for this reason; it is tried again and again.
+    /// Missing for this reason; opening is retried.
     Missing(String),
-    /// The kiosk does not want it now: closed by hours, or by a site where nobody blows.
+    /// Closed by the kiosk: outside opening hours, or at a site without breath.
     Closed,
 }
 
@@ -120,7 +120,7 @@ impl std::fmt::Display for DeviceState {
     }
 }
 
-/// The kiosk's ears and voice.
+/// Audio input and output of the kiosk.
 pub struct AudioIo {
     requests: Sender<Request>,
     links: Receiver<Link>,
@@ -129,13 +129,13 @@ pub struct AudioIo {
     supervisor: Option<JoinHandle<()>>,
     generation: u64,
     listens: bool,
-    microphone: Option<input::Ears>,
-    loudspeaker: Option<output::Voice>,
+    microphone: Option<input::MicrophoneReader>,
+    output: Option<output::OutputHandle>,
     tap: ReferenceTap,
 }
 
 impl AudioIo {
-    /// Begins to open the devices and returns at once; `synth` is called for each loudspeaker that is opened.
+    /// Starts to open the devices and returns at once; `synth` is called for each output device that is opened.
     pub fn start(settings: &AudioSettings, synth: impl Fn(u32) -> Synth + Send + 'static) -> Self {
         Self::start_with(settings, true, synth)
     }
@@ -163,48 +163,49 @@ impl AudioIo {
             generation: 0,
             listens,
             microphone: None,
-            loudspeaker: None,
+            output: None,
             tap: ReferenceTap::default(),
         }
     }
 
-    /// Sends commands to the loudspeaker's synth. Their times and `now`, the present, are sample times of the simulation
-    /// ([`SAMPLE_RATE`](soffio_simulation::SAMPLE_RATE)); what the ring has no room for is lost, and so is everything while there is no loudspeaker.
+    /// Sends commands to the synth. Their times and `now`, the present, are sample times of the simulation
+    /// ([`SAMPLE_RATE`](soffio_simulation::SAMPLE_RATE)); commands are dropped if the ring is full or there is no output device.
     pub fn send(&mut self, now: u64, commands: &[SoundCommand]) {
         self.take_links();
-        if let Some(voice) = &mut self.loudspeaker {
-            voice.send(now, commands, self.generation);
+        if let Some(handle) = &mut self.output {
+            handle.send(now, commands, self.generation);
         }
     }
 
-    /// Appends what the microphone has heard since the last call, and as many samples of what the loudspeaker played
-    /// meanwhile (none without a loudspeaker). The answer is the microphone's rate, Hz; `None` when there is none.
-    pub fn read_microphone(&mut self, into: &mut Heard) -> Option<u32> {
+    /// Appends the microphone's samples since the last call, and as many samples of the output of that time (none without an output
+    /// device). Returns the microphone's rate, Hz; `None` without a microphone.
+    pub fn read_microphone(&mut self, into: &mut MicrophoneSamples) -> Option<u32> {
         self.take_links();
-        let ears = self.microphone.as_mut()?;
-        let heard = ears.read(into);
-        let rate = ears.sample_rate();
-        if let Some(voice) = &mut self.loudspeaker {
-            let played_rate = voice.sample_rate();
-            self.tap.read(voice.reference(), played_rate, rate, heard, &mut into.reference);
+        let reader = self.microphone.as_mut()?;
+        let samples = reader.read(into);
+        let rate = reader.sample_rate();
+        if let Some(handle) = &mut self.output {
+            let played_rate = handle.sample_rate();
+            self.tap.read(handle.reference(), played_rate, rate, samples, &mut into.reference);
         }
         Some(rate)
     }
 
-    /// Other instruments from now on: commands sent after this call are meant for them. The old ones fade.
+    /// Replaces the instruments. Commands sent after this call are for the new ones; the old ones fade out.
     pub fn set_instruments(&mut self, synth: impl Fn(u32) -> Synth + Send + 'static) {
         self.generation += 1;
         // Fails only when the supervisor could not be started, which the status says already.
         let _ = self.requests.send(Request::Instruments { synth: Box::new(synth), generation: self.generation });
     }
 
-    /// Have the instruments that were asked for last arrived at the loudspeaker? Never without one.
+    /// Whether the last requested instruments are playing; never without an output device.
     pub fn has_instruments(&self) -> bool {
-        let heard = |voice: &output::Voice| voice.shared().generation.load(Ordering::Acquire) == self.generation;
-        self.loudspeaker.as_ref().is_some_and(heard)
+        let samples =
+            |handle: &output::OutputHandle| handle.shared().generation.load(Ordering::Acquire) == self.generation;
+        self.output.as_ref().is_some_and(samples)
     }
 
-    /// Closes the microphone, or opens it again.
+    /// Opens or closes the microphone.
     pub fn listen(&mut self, listens: bool) {
         if self.listens != listens {
             self.listens = listens;
@@ -213,42 +214,42 @@ impl AudioIo {
         }
     }
 
-    /// Has words said instead of those that are being said; none hush. They are mixed into what the loudspeaker plays, so
-    /// the microphone's reference holds them. Without a loudspeaker, or at another rate than its own, nothing is said.
-    pub fn say(&mut self, words: &Words) {
+    /// Speaks an utterance in place of the present one; an empty one ends it. It is part of the output and so of the microphone's
+    /// reference. Without an output device, or at another rate, nothing is spoken.
+    pub fn say(&mut self, words: &Utterance) {
         self.take_links();
-        if let Some(voice) = &mut self.loudspeaker {
-            voice.say(words);
+        if let Some(handle) = &mut self.output {
+            handle.say(words);
         }
     }
 
-    /// Is the loudspeaker saying words?
+    /// Whether an utterance is being spoken.
     pub fn speaks(&self) -> bool {
-        self.loudspeaker.as_ref().is_some_and(|voice| voice.shared().speaks.load(Ordering::Relaxed))
+        self.output.as_ref().is_some_and(|handle| handle.shared().speaks.load(Ordering::Relaxed))
     }
 
-    /// How the devices are.
+    /// State of the audio devices.
     pub fn status(&self) -> AudioStatus {
         let status = self.status.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        AudioStatus { lost: self.loudspeaker.as_ref().map_or(0, output::Voice::lost), ..status }
+        AudioStatus { lost: self.output.as_ref().map_or(0, output::OutputHandle::lost), ..status }
     }
 
-    /// Volume and night, and how loud it was.
+    /// Volume and night mode, and the measured loudness.
     pub fn knobs(&self) -> &Knobs {
         &self.knobs
     }
 
-    /// Frames the loudspeaker has been given so far; `None` without one.
+    /// Frames played so far; `None` without an output device.
     pub fn played(&self) -> Option<u64> {
-        self.loudspeaker.as_ref().map(|voice| voice.shared().played.load(Ordering::Acquire))
+        self.output.as_ref().map(|handle| handle.shared().played.load(Ordering::Acquire))
     }
 
     fn take_links(&mut self) {
         for link in self.links.try_iter() {
             match link {
-                Link::Microphone(ears) => self.microphone = ears,
-                Link::Loudspeaker(voice) => {
-                    self.loudspeaker = voice;
+                Link::Microphone(reader) => self.microphone = reader,
+                Link::Output(handle) => {
+                    self.output = handle;
                     self.tap = ReferenceTap::default();
                 }
             }

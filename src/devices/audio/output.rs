@@ -1,4 +1,4 @@
-//! The loudspeaker: a real-time thread that owns the synth.
+//! Audio output: a real-time callback that owns the synth.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,41 +8,41 @@ use cpal::{FromSample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
 
 use super::clock::ClockMap;
-use super::hearing::Tail;
+use super::hearing_loop::Tail;
 use super::knobs::Knobs;
-use super::mouth::{self, Mouth, Prompter, Words};
+use super::speech_mixer::{self, SpeechMixer, SpeechQueue, Utterance};
 use soffio_math::exp;
 use soffio_sound::{AWeighting, SoundCommand, Synth};
 
 /// Frames rendered at once, however long the device's blocks are.
 const CHUNK: usize = 256;
-/// Room in the ring of commands.
-const COMMANDS: usize = 2048;
-/// Room in the ring of the reference, s.
+/// Capacity of the command ring.
+const COMMAND_CAPACITY: usize = 2048;
+/// Capacity of the reference ring, s.
 const REFERENCE: u32 = 1;
-/// A synth that was replaced fades and is dropped after this time, s.
-const FAREWELL: f64 = 0.1;
-/// Time constant with which the volume follows its knob, s: no click, and no jump in loudness.
+/// Fade-out of a replaced synth, s.
+const FADE_OUT: f64 = 0.1;
+/// Time constant of the volume, s: no click, and no jump in loudness.
 const VOLUME_GLIDE: f64 = 0.05;
-/// A volume this near to its knob is there.
-const THERE: f32 = 1e-5;
+/// Difference at which the volume has reached its target.
+const VOLUME_TOLERANCE: f32 = 1e-5;
 
-/// A command for the loudspeaker's own clock and for one generation of instruments.
+/// A command in output frames, for one generation of instruments.
 #[derive(Clone, Copy, Debug)]
-struct Timed {
+struct TimedCommand {
     command: SoundCommand,
     generation: u64,
 }
 
-/// A synth with the generation of commands that it understands.
+/// A synth and its generation of instruments.
 pub struct Engine {
-    /// Plays.
+    /// The synth.
     pub synth: Box<Synth>,
-    /// Commands of other generations are not for it.
+    /// Commands of other generations are ignored.
     pub generation: u64,
 }
 
-/// What the real-time thread lets others see.
+/// State of the callback for other threads.
 #[derive(Debug, Default)]
 pub struct Shared {
     /// Frames played.
@@ -51,23 +51,23 @@ pub struct Shared {
     pub block: AtomicU32,
     /// Of the instruments that play.
     pub generation: AtomicU64,
-    /// Are words being said?
+    /// Whether an utterance is being spoken.
     pub speaks: AtomicBool,
-    /// Commands that the instruments had no room for.
+    /// Commands dropped by the synth.
     pub lost: AtomicU64,
 }
 
-/// The real-time end: everything that the loudspeaker's callback touches.
+/// The real-time end: all that the output's callback uses.
 pub struct Player {
     engine: Option<Engine>,
     /// Frame at which the engine's own clock was 0.
     origin: u64,
     /// A replaced engine and the frames it still has to fade.
     leaving: Option<(Engine, usize)>,
-    commands: Consumer<Timed>,
+    commands: Consumer<TimedCommand>,
     engines: Consumer<Engine>,
     retired: Producer<Engine>,
-    mouth: Mouth,
+    speech_mixer: SpeechMixer,
     reference: Producer<f32>,
     second: SecondOutput,
     shared: Arc<Shared>,
@@ -118,9 +118,9 @@ impl SecondOutput {
 }
 
 /// The kiosk's end.
-pub struct Voice {
-    commands: Producer<Timed>,
-    prompter: Prompter,
+pub struct OutputHandle {
+    commands: Producer<TimedCommand>,
+    speech_queue: SpeechQueue,
     reference: Consumer<f32>,
     shared: Arc<Shared>,
     clock: ClockMap,
@@ -130,7 +130,7 @@ pub struct Voice {
 }
 
 /// The supervisor's end: engines go in, retired ones come out.
-pub struct Workshop {
+pub struct SynthInstaller {
     engines: Producer<Engine>,
     retired: Consumer<Engine>,
     tails: Producer<Tail>,
@@ -138,14 +138,14 @@ pub struct Workshop {
 }
 
 /// The three ends of one loudspeaker.
-pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Voice, Workshop) {
-    let (to_player, commands) = RingBuffer::new(COMMANDS);
+pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, OutputHandle, SynthInstaller) {
+    let (to_player, commands) = RingBuffer::new(COMMAND_CAPACITY);
     let (reference, from_player) = RingBuffer::new((REFERENCE * sample_rate) as usize);
     let (new_engines, engines) = RingBuffer::new(4);
     let (retired, old_engines) = RingBuffer::new(8);
     let (to_tails, tails) = RingBuffer::new(4);
     let (spent_tails, old_tails) = RingBuffer::new(8);
-    let (mouth, prompter) = mouth::open(sample_rate);
+    let (speech_mixer, speech_queue) = speech_mixer::open(sample_rate);
     let shared = Arc::new(Shared::default());
     let player = Player {
         engine: None,
@@ -154,7 +154,7 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         commands,
         engines,
         retired,
-        mouth,
+        speech_mixer,
         reference,
         second: SecondOutput { tail: None, tails, spent_tails, sounds: 0.0 },
         shared: shared.clone(),
@@ -165,12 +165,17 @@ pub fn open(sample_rate: u32, channels: usize, knobs: Arc<Knobs>) -> (Player, Vo
         weighting: AWeighting::new(f64::from(sample_rate)),
         seconds: 1.0 / f64::from(sample_rate),
         knobs,
-        farewell: (FAREWELL * f64::from(sample_rate)) as usize,
+        farewell: (FADE_OUT * f64::from(sample_rate)) as usize,
         frame: 0,
     };
     let clock = ClockMap::new(sample_rate);
-    let voice = Voice { commands: to_player, prompter, reference: from_player, shared, clock, sample_rate, lost: 0 };
-    (player, voice, Workshop { engines: new_engines, retired: old_engines, tails: to_tails, spent_tails: old_tails })
+    let handle =
+        OutputHandle { commands: to_player, speech_queue, reference: from_player, shared, clock, sample_rate, lost: 0 };
+    (
+        player,
+        handle,
+        SynthInstaller { engines: new_engines, retired: old_engines, tails: to_tails, spent_tails: old_tails },
+    )
 }
 
 impl Player {
@@ -184,7 +189,7 @@ impl Player {
             engine.synth.set_night(night);
         }
         let mut power = 0.0;
-        while let Ok(Timed { command, generation }) = self.commands.pop() {
+        while let Ok(TimedCommand { command, generation }) = self.commands.pop() {
             if let Some(engine) = self.engine.as_mut().filter(|engine| engine.generation == generation) {
                 engine.synth.command(command.at(command.sample().saturating_sub(self.origin)));
             }
@@ -204,7 +209,7 @@ impl Player {
         self.frame += frames as u64;
         self.shared.played.store(self.frame, Ordering::Release);
         self.shared.block.store(frames as u32, Ordering::Relaxed);
-        self.shared.speaks.store(self.mouth.speaks(), Ordering::Relaxed);
+        self.shared.speaks.store(self.speech_mixer.is_speaking(), Ordering::Relaxed);
         let lost = self.engine.as_ref().map_or(0, |engine| engine.synth.lost());
         self.shared.lost.store(lost, Ordering::Relaxed);
     }
@@ -242,12 +247,12 @@ impl Player {
             stereo.iter_mut().zip(old).for_each(|(s, o)| *s = (*s + *o).clamp(-1.0, 1.0));
             *left = left.saturating_sub(stereo.len() / 2);
         }
-        self.mouth.speak(stereo);
+        self.speech_mixer.mix(stereo);
         let volume = self.knobs.volume();
         self.second.feed(stereo, volume > 0.0, self.glide);
         for frame in stereo.as_chunks_mut::<2>().0 {
             let off = volume - self.gain;
-            self.gain = if off.abs() < THERE { volume } else { self.gain + off * self.glide };
+            self.gain = if off.abs() < VOLUME_TOLERANCE { volume } else { self.gain + off * self.glide };
             frame.iter_mut().for_each(|sample| *sample *= self.gain);
         }
     }
@@ -265,7 +270,7 @@ fn put<T: SizedSample + FromSample<f32>>(frame: &mut [T], [left, right]: [f32; 2
     }
 }
 
-impl Voice {
+impl OutputHandle {
     /// Hz.
     pub fn sample_rate(&self) -> u32 {
         self.sample_rate
@@ -282,9 +287,9 @@ impl Voice {
     }
 
     /// Has words said instead of those that are being said; none hush. Words at another rate are not said.
-    pub fn say(&mut self, words: &Words) {
+    pub fn say(&mut self, words: &Utterance) {
         if words.samples.is_empty() || words.sample_rate == self.sample_rate {
-            self.prompter.say(words.samples.clone());
+            self.speech_queue.say(words.samples.clone());
         }
     }
 
@@ -302,13 +307,13 @@ impl Voice {
         for command in last.as_deref().unwrap_or(commands) {
             let command = command.at(self.clock.frame(command.sample()));
             // A ring that is full even so means that the device stands still; what it missed is not wanted later.
-            self.lost += u64::from(self.commands.push(Timed { command, generation }).is_err());
+            self.lost += u64::from(self.commands.push(TimedCommand { command, generation }).is_err());
         }
     }
 }
 
-/// Of many commands those that are still to be heard when all are late: each hit, touch and silence, and of the wind and
-/// of what slides the last word for each instrument.
+/// Of many late commands those that still matter: each strike, damp and silence, and the last wind and slide of each
+/// instrument.
 fn last_words(commands: &[SoundCommand]) -> Vec<SoundCommand> {
     let goes_on = |command: &SoundCommand| match command {
         SoundCommand::Wind(_) => Some((0, 0)),
@@ -323,7 +328,7 @@ fn last_words(commands: &[SoundCommand]) -> Vec<SoundCommand> {
     last
 }
 
-impl Workshop {
+impl SynthInstaller {
     /// Gives the player another engine; drops the ones it has given back.
     pub fn exchange(&mut self, engine: Option<Engine>) {
         self.clear();
@@ -376,12 +381,12 @@ mod tests {
     }
 
     /// Steps of 4.17 ms beside blocks of 10 ms until both clocks are known; the sample at which it ends.
-    fn settled(player: &mut Player, voice: &mut Voice) -> u64 {
+    fn settled(player: &mut Player, handle: &mut OutputHandle) -> u64 {
         let mut now = 0;
         for _ in 0..100 {
             for _ in 0..2 {
                 now += SAMPLES_PER_STEP;
-                voice.send(now, &[], 0);
+                handle.send(now, &[], 0);
             }
             // 2.4 steps a block.
             now += 80;
@@ -394,9 +399,9 @@ mod tests {
     fn hits_of_steps_that_end_late_sound_in_the_next_block() {
         // Steps that are late: one, a fifth of a second, and as many as the pacer makes up for; commands of each.
         for (steps, winds) in [(1u64, 1usize), (48, 30), (60, 60)] {
-            let (mut player, mut voice, mut workshop) = open(RATE, 2, Arc::new(Knobs::new(1.0)));
-            workshop.exchange(Some(Engine { synth: Box::new(plate()), generation: 0 }));
-            let now = settled(&mut player, &mut voice);
+            let (mut player, mut handle, mut installer) = open(RATE, 2, Arc::new(Knobs::new(1.0)));
+            installer.exchange(Some(Engine { synth: Box::new(plate()), generation: 0 }));
+            let now = settled(&mut player, &mut handle);
             let late = steps * SAMPLES_PER_STEP;
             // The loudspeaker goes on while they are computed.
             for _ in 0..=late / BLOCK as u64 {
@@ -409,10 +414,10 @@ mod tests {
             }
             // Within the last late step, behind all that goes on.
             commands.push(hit(now + late - 150));
-            voice.send(now + late, &commands, 0);
-            let heard = play(&mut player).max(play(&mut player));
-            assert!(heard > 0.01, "{steps} late steps: {heard}");
-            assert_eq!(voice.lost(), 0, "{steps} late steps");
+            handle.send(now + late, &commands, 0);
+            let peak = play(&mut player).max(play(&mut player));
+            assert!(peak > 0.01, "{steps} late steps: {peak}");
+            assert_eq!(handle.lost(), 0, "{steps} late steps");
         }
     }
 

@@ -1,7 +1,7 @@
-//! What the loudspeaker played while the microphone listened: the detector's reference.
+//! Reference signal of the detector: the output of the same time as the microphone's samples.
 //!
 //! The two devices deliver in blocks of their own length and at their own rate. The tap reads as much of the
-//! loudspeaker's ring as fits the microphone's samples, interpolating linearly between rates, so that both are aligned
+//! output's ring as fits the microphone's samples, interpolating linearly between rates, so that both are aligned
 //! by time of arrival to within a few blocks. What was played is heard later than it arrives here, by the latency of both
 //! devices; a backlog in the ring would hide that order.
 //!

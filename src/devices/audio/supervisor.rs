@@ -1,7 +1,7 @@
 //! Opens the devices, watches them, opens them again.
 //!
 //! Streams live and die on this thread alone. A device is given up when its error callback says so, or when it has not
-//! asked for a block for [`STALLED`]: some drivers die without a word. Then it is tried again after 1, 2, 2, … s ([`BACK_OFF`]).
+//! asked for a block for [`STALL_TIMEOUT`]: some drivers die without a word. Then it is tried again after 1, 2, 2, … s ([`BACK_OFF`]).
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
@@ -13,30 +13,29 @@ use cpal::{BufferSize, Device, ErrorKind, FromSample, SampleFormat, SizedSample,
 use cpu_time::ThreadTime;
 
 use super::devices::{Chosen, Direction, choose, is_present};
-use super::hearing::{self, Hearing};
-use super::input::{self, Ears, Recorder};
-use super::output::{self, Engine, Player, Voice, Workshop};
+use super::hearing_loop::{self, HearingLoop};
+use super::input::{self, MicrophoneReader, Recorder};
+use super::output::{self, Engine, OutputHandle, Player, SynthInstaller};
 use super::{AudioSettings, AudioStatus, DeviceState, Knobs, SoundDelay, SynthFactory};
 use soffio_config::remedies;
 use soffio_math::db_to_amplitude;
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP};
 
 /// Between two looks at the devices.
-const LOOK: Duration = Duration::from_millis(100);
+const POLL_INTERVAL: Duration = Duration::from_millis(100);
 /// A device that asks for no block for this long is lost.
-const STALLED: Duration = Duration::from_secs(3);
+const STALL_TIMEOUT: Duration = Duration::from_secs(3);
 /// Between two looks whether the device is still listed.
-const ROLL_CALL: Duration = Duration::from_secs(1);
+const PRESENCE_INTERVAL: Duration = Duration::from_secs(1);
 /// From so many blocks on their length is judged.
-const ENOUGH_BLOCKS: u64 = 50;
-/// The first pause before a device is tried again, and the longest: whoever plugs it in again waits for three seconds at
-/// most.
+const LEAST_BLOCKS: u64 = 50;
+/// First and longest pause before a device is opened again: within three seconds after it is plugged in.
 const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(2));
 
 /// Where this is set, the loudspeaker's callback measures its processor time, for the log's last line.
 const MEASURE: &str = "SOFFIO_MEASURE_CALLBACK";
 
-/// What the kiosk asks of the supervisor.
+/// Request of the kiosk to the supervisor.
 pub(super) enum Request {
     /// Other instruments.
     Instruments { synth: SynthFactory, generation: u64 },
@@ -48,8 +47,8 @@ pub(super) enum Request {
 
 /// The kiosk's end of a device that was opened; `None` when it was lost.
 pub(super) enum Link {
-    Microphone(Option<Ears>),
-    Loudspeaker(Option<Voice>),
+    Microphone(Option<MicrophoneReader>),
+    Output(Option<OutputHandle>),
 }
 
 /// What the callbacks of one stream report.
@@ -97,8 +96,8 @@ impl Health {
     }
 }
 
-/// One device over all its lives.
-struct Line {
+/// One device over all its openings.
+struct ManagedDevice {
     direction: Direction,
     /// Of the device that is open.
     id: String,
@@ -110,13 +109,13 @@ struct Line {
     pause: Duration,
     /// Hz.
     sample_rate: u32,
-    /// Has the log been told how long its blocks are?
-    told: bool,
+    /// Whether the length of its blocks has been logged.
+    is_block_reported: bool,
     /// Gaps of earlier lives.
     xruns: u64,
 }
 
-impl Line {
+impl ManagedDevice {
     fn new(direction: Direction) -> Self {
         let now = Instant::now();
         let (health, seen) = (Arc::default(), (0, now));
@@ -130,7 +129,7 @@ impl Line {
             retry_at: now,
             pause: BACK_OFF.0,
             sample_rate: 1,
-            told: false,
+            is_block_reported: false,
             xruns: 0,
         }
     }
@@ -139,12 +138,12 @@ impl Line {
         self.xruns + self.health.xruns.load(Ordering::Relaxed)
     }
 
-    /// Length of its longest block, ms: told once in a life, when there were enough of them to judge.
-    fn tell_block(&mut self) -> Option<f64> {
-        if self.told || self.health.blocks.load(Ordering::Relaxed) < ENOUGH_BLOCKS {
+    /// Length of its longest block, ms; once per opening, after enough blocks.
+    fn take_block_report(&mut self) -> Option<f64> {
+        if self.is_block_reported || self.health.blocks.load(Ordering::Relaxed) < LEAST_BLOCKS {
             return None;
         }
-        self.told = true;
+        self.is_block_reported = true;
         Some(1e3 * self.health.longest.load(Ordering::Relaxed) as f64 / f64::from(self.sample_rate))
     }
 
@@ -171,10 +170,10 @@ impl Line {
             self.seen = (blocks, Instant::now());
             // It works: the next trouble is a new one.
             self.pause = BACK_OFF.0;
-        } else if self.seen.1.elapsed() > STALLED {
-            return Some(format!("the device stood still for {} s", STALLED.as_secs()));
+        } else if self.seen.1.elapsed() > STALL_TIMEOUT {
+            return Some(format!("the device stood still for {} s", STALL_TIMEOUT.as_secs()));
         }
-        if self.called.elapsed() > ROLL_CALL {
+        if self.called.elapsed() > PRESENCE_INTERVAL {
             self.called = Instant::now();
             if !is_present(self.direction, &self.id) {
                 return Some("it was pulled out".into());
@@ -183,7 +182,7 @@ impl Line {
         None
     }
 
-    fn give_up(&mut self) {
+    fn close(&mut self) {
         self.xruns = self.xruns();
         self.stream = None;
         self.health = Arc::default();
@@ -198,7 +197,7 @@ impl Line {
     fn opened(&mut self, stream: Stream, id: String, sample_rate: u32) {
         self.stream = Some(stream);
         (self.id, self.called) = (id, Instant::now());
-        (self.sample_rate, self.told) = (sample_rate, false);
+        (self.sample_rate, self.is_block_reported) = (sample_rate, false);
         self.seen = (0, Instant::now());
     }
 }
@@ -212,13 +211,13 @@ pub(super) struct Supervisor {
     links: Sender<Link>,
     status: Arc<Mutex<AudioStatus>>,
     knobs: Arc<Knobs>,
-    microphone: Line,
-    loudspeaker: Line,
-    hearing_loop: Line,
+    microphone: ManagedDevice,
+    output: ManagedDevice,
+    hearing_loop: ManagedDevice,
     /// The opening of the loudspeaker that the second output hears.
     follows: u64,
     openings: u64,
-    workshop: Option<(Workshop, u32)>,
+    installer: Option<(SynthInstaller, u32)>,
     /// Look-ahead of the limiter of what plays, s.
     limiter_s: f64,
 }
@@ -241,12 +240,12 @@ impl Supervisor {
             links,
             status,
             knobs,
-            microphone: Line::new(Direction::Input),
-            loudspeaker: Line::new(Direction::Output),
-            hearing_loop: Line::new(Direction::Output),
+            microphone: ManagedDevice::new(Direction::Input),
+            output: ManagedDevice::new(Direction::Output),
+            hearing_loop: ManagedDevice::new(Direction::Output),
             follows: 0,
             openings: 0,
-            workshop: None,
+            installer: None,
             limiter_s: 0.0,
         }
     }
@@ -254,18 +253,18 @@ impl Supervisor {
     /// Until the kiosk stops.
     pub fn run(mut self) {
         loop {
-            self.tend_loudspeaker();
-            self.tend_microphone();
-            self.tend_hearing_loop();
-            for (name, line) in [("microphone", &mut self.microphone), ("loudspeaker", &mut self.loudspeaker)] {
-                if let Some(length) = line.tell_block() {
+            self.update_output();
+            self.update_microphone();
+            self.update_hearing_loop();
+            for (name, line) in [("microphone", &mut self.microphone), ("loudspeaker", &mut self.output)] {
+                if let Some(length) = line.take_block_report() {
                     tracing::info!("{name} in blocks of {length:.1} ms");
                 }
             }
-            let xruns = self.microphone.xruns() + self.loudspeaker.xruns();
-            let delay = self.loudspeaker.delay(self.limiter_s);
-            self.tell(|status| (status.xruns, status.delay) = (xruns, delay));
-            match self.inbox.recv_timeout(LOOK) {
+            let xruns = self.microphone.xruns() + self.output.xruns();
+            let delay = self.output.delay(self.limiter_s);
+            self.update_status(|status| (status.xruns, status.delay) = (xruns, delay));
+            match self.inbox.recv_timeout(POLL_INTERVAL) {
                 Ok(Request::Instruments { synth, generation }) => {
                     (self.synth, self.generation) = (synth, generation);
                     self.install_synth();
@@ -273,22 +272,22 @@ impl Supervisor {
                 Ok(Request::Listen(listens)) => self.listens = listens,
                 Ok(Request::Stop) | Err(RecvTimeoutError::Disconnected) => break,
                 Err(RecvTimeoutError::Timeout) => {
-                    if let Some((workshop, _)) = &mut self.workshop {
-                        workshop.clear();
+                    if let Some((installer, _)) = &mut self.installer {
+                        installer.clear();
                     }
                 }
             }
         }
-        let health = &self.loudspeaker.health;
+        let health = &self.output.health;
         let blocks = health.blocks.load(Ordering::Relaxed);
         let worst = health.worst.load(Ordering::Relaxed) as f64 / 1e4;
         if std::env::var_os(MEASURE).is_some() {
-            let xruns = self.loudspeaker.xruns();
+            let xruns = self.output.xruns();
             tracing::info!("loudspeaker: {blocks} blocks, xruns: {xruns}, the worst took {worst:.2} % of its time");
         }
     }
 
-    fn tell(&self, change: impl FnOnce(&mut AudioStatus)) {
+    fn update_status(&self, change: impl FnOnce(&mut AudioStatus)) {
         change(&mut self.status.lock().unwrap_or_else(PoisonError::into_inner));
     }
 
@@ -298,63 +297,64 @@ impl Supervisor {
     }
 
     fn install_synth(&mut self) {
-        if let Some((workshop, rate)) = &mut self.workshop {
+        if let Some((installer, rate)) = &mut self.installer {
             let synth = Box::new((self.synth)(*rate));
             self.limiter_s = synth.latency() as f64 / f64::from(*rate);
-            workshop.exchange(Some(Engine { synth, generation: self.generation }));
+            installer.exchange(Some(Engine { synth, generation: self.generation }));
         }
     }
 
-    fn tend_loudspeaker(&mut self) {
-        if let Some(reason) = self.loudspeaker.lost() {
+    fn update_output(&mut self) {
+        if let Some(reason) = self.output.lost() {
             tracing::warn!("loudspeaker lost: {reason}");
-            self.loudspeaker.give_up();
-            self.workshop = None;
-            self.link(Link::Loudspeaker(None));
-            self.tell(|status| status.output = DeviceState::Missing(reason));
+            self.output.close();
+            self.installer = None;
+            self.link(Link::Output(None));
+            self.update_status(|status| status.output = DeviceState::Missing(reason));
         }
-        if !self.loudspeaker.due() {
+        if !self.output.due() {
             return;
         }
         let result = choose(Direction::Output, &self.settings.output, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format, shortest_block } = chosen;
             let open = |config: StreamConfig| {
-                let (player, voice, workshop) =
+                let (player, handle, installer) =
                     output::open(config.sample_rate, config.channels.into(), self.knobs.clone());
-                let stream = play(&device, config, format, player, self.loudspeaker.health.clone())?;
-                Ok((stream, voice, workshop))
+                let stream = play(&device, config, format, player, self.output.health.clone())?;
+                Ok((stream, handle, installer))
             };
-            let (stream, voice, workshop) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
-            Ok((stream, (voice, workshop), id, name, config.sample_rate, shortest_block))
+            let (stream, handle, installer) =
+                with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, (handle, installer), id, name, config.sample_rate, shortest_block))
         });
         match result {
-            Ok((stream, (voice, workshop), id, name, sample_rate, shortest)) => {
+            Ok((stream, (handle, installer), id, name, sample_rate, shortest)) => {
                 tracing::info!("loudspeaker: {name}, {sample_rate} Hz");
-                self.loudspeaker.opened(stream, id, sample_rate);
-                self.workshop = Some((workshop, sample_rate));
+                self.output.opened(stream, id, sample_rate);
+                self.installer = Some((installer, sample_rate));
                 self.openings += 1;
                 self.install_synth();
-                self.link(Link::Loudspeaker(Some(voice)));
-                self.tell(|status| {
+                self.link(Link::Output(Some(handle)));
+                self.update_status(|status| {
                     status.output = DeviceState::Ok { name, sample_rate };
                     status.openings += 1;
                     status.shortest_block_s = shortest.map(|frames| f64::from(frames) / f64::from(sample_rate));
                 });
             }
             Err(reason) => {
-                self.loudspeaker.give_up();
-                self.tell(|status| status.output = DeviceState::Missing(reason));
+                self.output.close();
+                self.update_status(|status| status.output = DeviceState::Missing(reason));
             }
         }
     }
 
     /// The second output follows the loudspeaker that is open; neither opening nor losing it touches the first.
-    fn tend_hearing_loop(&mut self) {
+    fn update_hearing_loop(&mut self) {
         let wanted = self.settings.hearing_loop.trim();
         if wanted.is_empty() {
             return;
         }
-        let lost = match &self.workshop {
+        let lost = match &self.installer {
             None => Some("waits for the loudspeaker".to_owned()),
             Some(_) if self.follows != self.openings => Some("the loudspeaker is another one".into()),
             Some(_) => self.hearing_loop.lost(),
@@ -362,17 +362,17 @@ impl Supervisor {
         if let Some(reason) = lost {
             if self.hearing_loop.stream.is_some() {
                 tracing::warn!("hearing loop closed: {reason}");
-                self.hearing_loop.give_up();
+                self.hearing_loop.close();
             }
             self.follows = self.openings;
-            self.tell(|status| status.hearing_loop = Some(DeviceState::Missing(reason)));
+            self.update_status(|status| status.hearing_loop = Some(DeviceState::Missing(reason)));
         }
-        let Some((workshop, from_rate)) = self.workshop.as_mut().filter(|_| self.hearing_loop.due()) else { return };
+        let Some((installer, from_rate)) = self.installer.as_mut().filter(|_| self.hearing_loop.due()) else { return };
         let gain = db_to_amplitude(self.settings.hearing_loop_db) as f32;
         let result = choose(Direction::Output, wanted, self.settings.block_ms).and_then(|chosen| {
             let Chosen { device, id, name, config, format, .. } = chosen;
             let open = |config: StreamConfig| {
-                let (tail, hearing) = hearing::open(*from_rate, config.sample_rate, config.channels.into(), gain);
+                let (tail, hearing) = hearing_loop::open(*from_rate, config.sample_rate, config.channels.into(), gain);
                 Ok((play(&device, config, format, hearing, self.hearing_loop.health.clone())?, tail))
             };
             let (stream, tail) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
@@ -382,26 +382,26 @@ impl Supervisor {
             Ok((stream, tail, id, name, sample_rate)) => {
                 tracing::info!("hearing loop: {name}, {sample_rate} Hz");
                 self.hearing_loop.opened(stream, id, sample_rate);
-                workshop.lead(tail);
+                installer.lead(tail);
                 DeviceState::Ok { name, sample_rate }
             }
             Err(reason) => {
-                self.hearing_loop.give_up();
+                self.hearing_loop.close();
                 DeviceState::Missing(reason)
             }
         };
-        self.tell(|status| status.hearing_loop = Some(state));
+        self.update_status(|status| status.hearing_loop = Some(state));
     }
 
-    fn tend_microphone(&mut self) {
+    fn update_microphone(&mut self) {
         if !self.listens {
             return self.close_microphone();
         }
         if let Some(reason) = self.microphone.lost() {
             tracing::warn!("microphone lost: {reason}");
-            self.microphone.give_up();
+            self.microphone.close();
             self.link(Link::Microphone(None));
-            self.tell(|status| (status.input, status.capsules) = (DeviceState::Missing(reason), 0));
+            self.update_status(|status| (status.input, status.capsules) = (DeviceState::Missing(reason), 0));
         }
         if !self.microphone.due() {
             return;
@@ -410,26 +410,28 @@ impl Supervisor {
             let Chosen { device, id, name, config, format, .. } = chosen;
             let open = |config: StreamConfig| {
                 let wanted = [self.settings.microphone_channel, self.settings.second_microphone_channel];
-                let (recorder, ears) = input::open(config.sample_rate, config.channels.into(), wanted);
-                Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, ears))
+                let (recorder, reader) = input::open(config.sample_rate, config.channels.into(), wanted);
+                Ok((record(&device, config, format, recorder, self.microphone.health.clone())?, reader))
             };
-            let (stream, ears) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
-            Ok((stream, ears, id, name, config.sample_rate))
+            let (stream, reader) = with_any_block(config, open).map_err(|error| format!("{name}: {error}"))?;
+            Ok((stream, reader, id, name, config.sample_rate))
         });
         match result {
-            Ok((stream, ears, id, name, sample_rate)) => {
-                let capsules = ears.capsules();
+            Ok((stream, reader, id, name, sample_rate)) => {
+                let capsules = reader.capsules();
                 tracing::info!("microphone: {name}, {sample_rate} Hz, capsules: {capsules}");
                 if capsules < 2 && self.settings.second_microphone_channel > 0 {
                     tracing::warn!("no second capsule: {}", remedies::NO_SECOND_MICROPHONE);
                 }
                 self.microphone.opened(stream, id, sample_rate);
-                self.link(Link::Microphone(Some(ears)));
-                self.tell(|status| (status.input, status.capsules) = (DeviceState::Ok { name, sample_rate }, capsules));
+                self.link(Link::Microphone(Some(reader)));
+                self.update_status(|status| {
+                    (status.input, status.capsules) = (DeviceState::Ok { name, sample_rate }, capsules)
+                });
             }
             Err(reason) => {
-                self.microphone.give_up();
-                self.tell(|status| status.input = DeviceState::Missing(reason));
+                self.microphone.close();
+                self.update_status(|status| status.input = DeviceState::Missing(reason));
             }
         }
     }
@@ -440,11 +442,11 @@ impl Supervisor {
     fn close_microphone(&mut self) {
         if self.microphone.stream.is_some() {
             tracing::info!("microphone closed");
-            self.microphone.give_up();
+            self.microphone.close();
             self.link(Link::Microphone(None));
         }
         (self.microphone.retry_at, self.microphone.pause) = (Instant::now(), BACK_OFF.0);
-        self.tell(|status| (status.input, status.capsules) = (DeviceState::Closed, 0));
+        self.update_status(|status| (status.input, status.capsules) = (DeviceState::Closed, 0));
     }
 }
 
@@ -467,9 +469,9 @@ impl Plays for Player {
     }
 }
 
-impl Plays for Hearing {
+impl Plays for HearingLoop {
     fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
-        Hearing::play(self, data);
+        HearingLoop::play(self, data);
     }
 }
 

@@ -1,47 +1,47 @@
-//! What a driver is asked, and where it leaves its readings.
+//! Interface of a driver, and the slot of its readings.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Weaker than this a controller is at rest.
+/// Least strength of a breath.
 const FAINTEST: f64 = 0.02;
-/// What the controllers say now.
+/// Present reading of one or all controllers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reading {
-    /// How hard is blown, 0 … 1.
+    /// Breath strength, 0 … 1.
     pub strength: f64,
-    /// Is a button held that blows?
+    /// Whether a blow button is held.
     pub hold: bool,
-    /// Where a stick points, right and down, −1 … 1 each: the aim moves that way.
+    /// Deflection of a stick to the right and down, −1 … 1 each; it moves the aim.
     pub stick: [f64; 2],
-    /// A place that was named, picture coordinates, and how many were named so far.
+    /// Last absolute aim, picture coordinates, and the number of them so far.
     pub aim: Option<([f64; 2], u64)>,
-    /// Inputs so far: whoever sees it grow knows that somebody is there.
+    /// Number of inputs so far; it grows while somebody uses the controller.
     pub activity: u64,
 }
 
 impl Reading {
-    /// A strength, if it is a number; its change is an input. A sensor at rest trembles: that is nobody.
+    /// Sets the strength, if it is finite. A change counts as input, except the noise of a sensor at rest.
     pub(super) fn blow(&mut self, strength: f64) {
         let strength = if strength >= FAINTEST { strength.min(1.0) } else { 0.0 };
         self.activity += u64::from(strength != self.strength);
         self.strength = strength;
     }
 
-    /// A button that blows.
+    /// Sets the blow button.
     pub(super) fn press(&mut self, down: bool) {
         self.activity += u64::from(down != self.hold);
         self.hold = down;
     }
 
-    /// One axis of a stick (0 right, 1 down).
+    /// Sets one axis of the stick (0 right, 1 down).
     pub(super) fn tilt(&mut self, axis: usize, value: f64) {
         let value = if value.is_finite() { value.clamp(-1.0, 1.0) } else { 0.0 };
         self.activity += u64::from(value != self.stick[axis]);
         self.stick[axis] = value;
     }
 
-    /// A place on the picture.
+    /// Sets an absolute aim, picture coordinates.
     pub(super) fn point(&mut self, at: [f64; 2]) {
         if at.iter().all(|x| x.is_finite()) {
             let count = self.aim.map_or(0, |(_, count)| count) + 1;
@@ -50,12 +50,12 @@ impl Reading {
         }
     }
 
-    /// The device is gone: what it held is let go of.
+    /// Releases everything after the loss of a device.
     pub(super) fn let_go(&mut self) {
         *self = Self { activity: self.activity, aim: self.aim, ..Self::default() };
     }
 
-    /// Two devices as one.
+    /// Joins two readings.
     pub(super) fn join(self, other: Self) -> Self {
         let count = |reading: &Self| reading.aim.map_or(0, |(_, count)| count);
         Self {
@@ -68,7 +68,7 @@ impl Reading {
     }
 }
 
-/// A driver's place among the readings.
+/// Shared reading of a driver.
 #[derive(Clone, Default)]
 pub(super) struct Slot(Arc<Mutex<Reading>>);
 
@@ -82,11 +82,11 @@ impl Slot {
     }
 }
 
-/// One kind of controller, on a thread of its own.
+/// Driver of one kind of controller, on its own thread.
 pub(super) trait Driver {
-    /// Opens what there is; what it listens to, or why it does not.
+    /// Opens the device. Returns its name, or the reason why there is none.
     fn open(&mut self, slot: &Slot) -> Result<String, String>;
 
-    /// Waits up to `wait` for news and enters them. An error: it is lost, and this is why.
+    /// Waits up to `wait` for messages and enters them. Returns an error with the reason if the device is lost.
     fn listen(&mut self, slot: &Slot, wait: Duration) -> Result<(), String>;
 }

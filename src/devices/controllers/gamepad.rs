@@ -1,5 +1,5 @@
-//! Gamepads and adaptive controllers: a trigger blows as far as it is pulled, a button blows a normal breath, a stick
-//! or the cross moves the aim. Any pad, any number of them; they come and go as they like.
+//! Gamepads and adaptive controllers: a trigger blows in proportion, a button blows a normal breath, a stick or the directional pad
+//! moves the aim. Any number of pads may be connected and removed at any time.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ use gilrs::{Axis, Button, EventType, Gilrs};
 
 use super::driver::{Driver, Reading, Slot};
 
-/// A stick rests within this.
+/// Dead zone of a stick.
 const DEAD_ZONE: f32 = 0.15;
 
 /// All pads together.
@@ -41,7 +41,7 @@ impl Driver for Gamepads {
     }
 }
 
-/// What an event of a pad means.
+/// Enters an event of a pad.
 fn enter(reading: &mut Reading, event: &EventType) {
     let rested = |value: f32| if value.abs() < DEAD_ZONE { 0.0 } else { f64::from(value) };
     match *event {

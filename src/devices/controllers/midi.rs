@@ -9,13 +9,13 @@ use midir::{Ignore, MidiInput, MidiInputConnection};
 
 use super::driver::{Driver, Slot};
 
-/// Client name that others see.
+/// Client name for other programs.
 const CLIENT: &str = "soffio";
-/// Between two looks whether the port is still there.
+/// Interval of the checks whether the port still exists.
 const ROLL_CALL: Duration = Duration::from_secs(2);
-/// Where Linux has its MIDI ports.
+/// MIDI sequencer device of Linux.
 const SEQUENCER: &str = "/dev/snd/seq";
-/// The kernel's own patch bay, which nobody blows into.
+/// The kernel's own loop-back port, which is no controller.
 const NOT_AN_INSTRUMENT: &str = "Midi Through";
 
 /// One MIDI port.
@@ -49,12 +49,12 @@ impl Driver for Midi {
         };
         let port = midi.ports().into_iter().nth(index).ok_or("the port has just gone")?;
         let (slot, controller) = (slot.clone(), self.controller);
-        let heard = move |_: u64, message: &[u8], (): &mut ()| {
+        let on_message = move |_: u64, message: &[u8], (): &mut ()| {
             if let Some(strength) = strength(message, controller) {
                 slot.update(|reading| reading.blow(strength));
             }
         };
-        let line = midi.connect(&port, "breath", heard, ()).map_err(|error| error.to_string())?;
+        let line = midi.connect(&port, "breath", on_message, ()).map_err(|error| error.to_string())?;
         let name = named[index].clone();
         (self.line, self.looked) = (Some((name.clone(), line)), Instant::now());
         Ok(format!("{name}, control {controller}"))
@@ -87,7 +87,7 @@ fn names(midi: &MidiInput) -> Vec<String> {
     midi.ports().iter().map(|port| midi.port_name(port).unwrap_or_default()).collect()
 }
 
-/// Strength of the breath that a message tells of, 0 … 1.
+/// Breath strength of a message, 0 … 1.
 fn strength(message: &[u8], controller: u8) -> Option<f64> {
     match *message {
         [status, number, value] if status & 0xF0 == 0xB0 && number == controller && value < 128 => {

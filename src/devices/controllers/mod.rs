@@ -1,4 +1,4 @@
-//! Other ways to blow and to aim than microphone and glass: gamepads, MIDI breath controllers, OSC, a serial line.
+//! Controllers beside microphone and touchscreen: gamepads, MIDI breath controllers, OSC, a serial line.
 //!
 //! ```text
 //! one thread a driver:  open → listen → (lost) → wait 1, 2, 4, 8, 10, 10, … s → open …
@@ -6,8 +6,8 @@
 //! kiosk thread                  Controllers::reading() joins all slots: the strongest breath, every stick, any button
 //! ```
 //!
-//! Invariant: a driver that is lost leaves nothing behind; its slot is emptied before it is opened again. A device that
-//! is not there is no fault: somebody may plug it in tomorrow.
+//! Invariant: the slot of a lost driver is emptied before it is opened again. A missing device is not an error: it may be
+//! plugged in later.
 
 mod driver;
 mod gamepad;
@@ -26,7 +26,7 @@ pub use soffio_config::{ControllerKind, ControllerSettings};
 
 /// The first pause before a driver is opened again, and the longest, s.
 const BACK_OFF: (Duration, Duration) = (Duration::from_secs(1), Duration::from_secs(10));
-/// How long a driver may wait for news before it looks whether the kiosk ends.
+/// Longest wait of a driver for messages before it checks whether the kiosk ends.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// All controllers of a kiosk.
@@ -37,17 +37,17 @@ pub struct Controllers {
     threads: Vec<JoinHandle<()>>,
 }
 
-/// How one driver is.
+/// State of one driver.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum State {
-    /// Listens to this.
+    /// Listens to this device.
     Listening(String),
-    /// There is nothing to listen to, for this reason; it is looked for again and again.
+    /// There is no device for this reason; opening is retried.
     Waiting(String),
 }
 
 impl Controllers {
-    /// Starts to look for all controllers that the site wants, and returns at once.
+    /// Starts the drivers of all configured controllers and returns at once.
     pub fn start(settings: &ControllerSettings) -> Self {
         let stop = Arc::new(AtomicBool::new(false));
         let (mut slots, mut states, mut threads) = (Vec::new(), Vec::new(), Vec::new());
@@ -56,7 +56,7 @@ impl Controllers {
             let theirs = (settings.clone(), slot.clone(), state.clone(), stop.clone());
             let thread = std::thread::Builder::new().name(format!("soffio-{}", kind.name())).spawn(move || {
                 let (settings, slot, state, stop) = theirs;
-                tend(kind, driver(kind, &settings).as_mut(), &slot, &state, &stop);
+                run_driver(kind, driver(kind, &settings).as_mut(), &slot, &state, &stop);
             });
             match thread {
                 Ok(thread) => threads.push(thread),
@@ -68,12 +68,12 @@ impl Controllers {
         Self { slots, states, stop, threads }
     }
 
-    /// What all of them say now, as one.
+    /// Joint reading of all controllers.
     pub fn reading(&self) -> Reading {
         self.slots.iter().map(Slot::read).fold(Reading::default(), Reading::join)
     }
 
-    /// How each of them is.
+    /// State of each driver.
     pub fn states(&self) -> impl Iterator<Item = (ControllerKind, State)> {
         self.states.iter().map(|(kind, state)| (*kind, state.lock().unwrap_or_else(PoisonError::into_inner).clone()))
     }
@@ -98,9 +98,9 @@ fn driver(kind: ControllerKind, settings: &ControllerSettings) -> Box<dyn Driver
     }
 }
 
-/// The life of a driver: opened, listened to, lost, opened again.
-fn tend(kind: ControllerKind, driver: &mut dyn Driver, slot: &Slot, state: &Mutex<State>, stop: &AtomicBool) {
-    let tell = |new: State| {
+/// Runs a driver: opens it, listens, and opens it again after a loss.
+fn run_driver(kind: ControllerKind, driver: &mut dyn Driver, slot: &Slot, state: &Mutex<State>, stop: &AtomicBool) {
+    let report = |new: State| {
         let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
         if *state != new {
             match &new {
@@ -114,7 +114,7 @@ fn tend(kind: ControllerKind, driver: &mut dyn Driver, slot: &Slot, state: &Mute
     while !stop.load(Ordering::Relaxed) {
         match driver.open(slot) {
             Ok(name) => {
-                tell(State::Listening(name));
+                report(State::Listening(name));
                 pause = BACK_OFF.0;
                 let lost = loop {
                     if stop.load(Ordering::Relaxed) {
@@ -125,9 +125,9 @@ fn tend(kind: ControllerKind, driver: &mut dyn Driver, slot: &Slot, state: &Mute
                     }
                 };
                 slot.update(Reading::let_go);
-                tell(State::Waiting(lost));
+                report(State::Waiting(lost));
             }
-            Err(reason) => tell(State::Waiting(reason)),
+            Err(reason) => report(State::Waiting(reason)),
         }
         let mut waited = Duration::ZERO;
         while waited < pause && !stop.load(Ordering::Relaxed) {

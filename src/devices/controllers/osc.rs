@@ -1,7 +1,6 @@
 //! Open Sound Control over UDP: `/breath f` (0 … 1) blows, `/aim x y` aims (picture coordinates), `/hold 0|1` holds.
 //!
-//! Whoever can send a packet to the port can blow, and nothing else: other addresses are not answered, not even logged
-//! more than once. The default listens to this machine alone.
+//! A sender of packets to the port can blow and nothing else: other addresses are not answered, and logged only once. The default listens to this machine alone.
 
 use std::io::ErrorKind;
 use std::net::UdpSocket;
@@ -11,9 +10,9 @@ use rosc::{OscMessage, OscPacket, OscType};
 
 use super::driver::{Driver, Reading, Slot};
 
-/// Longest packet: more than any message of ours.
+/// Longest packet, bytes: more than any known message.
 const PACKET: usize = 1536;
-/// Bundles within bundles beyond this are nobody's music.
+/// Greatest nesting of bundles.
 const DEPTH: u32 = 8;
 
 /// A UDP port.
@@ -65,7 +64,7 @@ impl Driver for Osc {
     }
 }
 
-/// Enters all messages of a packet; whether each was understood.
+/// Enters all messages of a packet. Returns whether all were understood.
 fn enter(reading: &mut Reading, packet: &OscPacket, depth: u32) -> bool {
     match packet {
         OscPacket::Message(message) => say(reading, message),
@@ -103,13 +102,13 @@ fn number(argument: &OscType) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Whether a real packet through a real socket changes the reading so.
+    /// Sends real packets through a real socket.
     #[test]
     fn packets_blow_aim_and_hold_and_rubbish_does_nothing() {
         let slot = Slot::default();
         let mut osc = Osc::new("127.0.0.1:0");
-        let told = osc.open(&slot).expect("a free port");
-        let at = told.strip_prefix("udp ").expect("an address");
+        let name = osc.open(&slot).expect("a free port");
+        let at = name.strip_prefix("udp ").expect("an address");
         let sender = UdpSocket::bind("127.0.0.1:0").expect("a sender");
         let mut send = |packet: &[u8]| {
             sender.send_to(packet, at).expect("sent");

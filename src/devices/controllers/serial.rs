@@ -1,4 +1,4 @@
-//! A home-made breath sensor on a serial line: one number a line, 0 (still) … 1 (as hard as it goes), such as `0.42\n`.
+//! Breath sensor on a serial line: one number a line, 0 (still) … 1 (full strength), such as `0.42\n`.
 
 use std::io::{ErrorKind, Read};
 use std::time::Duration;
@@ -7,7 +7,7 @@ use serialport::SerialPort;
 
 use super::driver::{Driver, Slot};
 
-/// Longest line; what is longer is no number.
+/// Longest line, bytes; longer ones are ignored.
 const LINE: usize = 32;
 
 /// A serial line.
@@ -57,16 +57,16 @@ impl Driver for Serial {
     }
 }
 
-/// Numbers out of bytes.
+/// Line parser.
 #[derive(Default)]
 struct Lines {
     line: Vec<u8>,
-    /// The line is too long; nothing of it counts.
+    /// Whether the line is too long and is ignored.
     spoilt: bool,
 }
 
 impl Lines {
-    /// The number of a line that ends here, if it is one.
+    /// The number of a line that ends with this byte, if it is valid.
     fn push(&mut self, byte: u8) -> Option<f64> {
         if byte != b'\n' {
             self.spoilt |= self.line.len() == LINE;

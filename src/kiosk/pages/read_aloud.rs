@@ -9,7 +9,7 @@ use crate::pages::overlay::Scene;
 use crate::pages::speech_synthesis::{PendingSpeech, SpeechSynthesizer};
 use crate::pages::speech_text;
 use crate::visitor::input::Request;
-use soffio_devices::audio::Words;
+use soffio_devices::audio::Utterance;
 
 /// State of reading aloud.
 #[derive(Default)]
@@ -63,7 +63,7 @@ impl ReadAloud {
     }
 
     /// Requests a reading of the exhibit, or ends the reading. Returns what the output must play instead.
-    pub fn toggle(&mut self) -> Option<Words> {
+    pub fn toggle(&mut self) -> Option<Utterance> {
         if self.is_on() {
             return self.stop();
         }
@@ -91,20 +91,20 @@ impl ReadAloud {
     }
 
     /// Ends the reading. Returns an empty sound that replaces the one being played, if there is one.
-    pub fn stop(&mut self) -> Option<Words> {
+    pub fn stop(&mut self) -> Option<Utterance> {
         let on = self.is_on();
         (self.requested, self.pending, self.queued, self.playing) = (None, None, false, false);
-        on.then(|| Words { samples: [].into(), sample_rate: 0 })
+        on.then(|| Utterance { samples: [].into(), sample_rate: 0 })
     }
 
     /// Ends the reading with the visit.
-    pub fn end_visit(&mut self) -> Option<Words> {
+    pub fn end_visit(&mut self) -> Option<Utterance> {
         self.announces_focus = false;
         self.stop()
     }
 
     /// Advances the state once a picture. `playing`: does the output play speech now? Returns finished speech to play.
-    pub fn update(&mut self, playing: bool) -> Option<Words> {
+    pub fn update(&mut self, playing: bool) -> Option<Utterance> {
         // Silence before the output has started is not the end of the speech.
         self.queued &= !playing;
         self.playing = playing;

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use soffio_fourier::{real_forward, real_inverse};
 
-use soffio_devices::audio::{LOUDEST, Words};
+use soffio_devices::audio::{LOUDEST, Utterance};
 use soffio_math::db_to_amplitude;
 
 /// Loudness of speech, LUFS: 3 dB above the exhibits, which are attenuated by 12 dB meanwhile.
@@ -33,7 +33,7 @@ pub struct SpeechSynthesizer {
 }
 
 /// Speech that is being synthesized on its own thread.
-pub struct PendingSpeech(Receiver<Result<Words, String>>);
+pub struct PendingSpeech(Receiver<Result<Utterance, String>>);
 
 impl SpeechSynthesizer {
     /// Queries a program (`espeak-ng`, or one with the same arguments) for its languages.
@@ -85,7 +85,7 @@ impl SpeechSynthesizer {
 
 impl PendingSpeech {
     /// The finished speech, or the reason why there is none; `None` while the thread is working.
-    pub fn poll(&self) -> Option<Result<Words, String>> {
+    pub fn poll(&self) -> Option<Result<Utterance, String>> {
         match self.0.try_recv() {
             Ok(speech) => Some(speech),
             Err(TryRecvError::Empty) => None,
@@ -100,7 +100,7 @@ fn base_language(language: &str) -> &str {
 }
 
 /// Synthesizes texts one after the other as one sound.
-fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Words, String> {
+fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Utterance, String> {
     let mut all = Vec::new();
     for (text, language) in texts.iter().filter(|(text, _)| !text.trim().is_empty()) {
         let (samples, rate) = parse(&run_program(program, base_language(language), text)?)?;
@@ -108,7 +108,7 @@ fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Re
     }
     all.truncate((LONGEST_S * f64::from(sample_rate)) as usize);
     normalize_loudness(&mut all, sample_rate)?;
-    Ok(Words { samples: all.into(), sample_rate })
+    Ok(Utterance { samples: all.into(), sample_rate })
 }
 
 /// The program's WAV of a text. The text is written to standard input, so that no part of it is read as an option.

@@ -6,7 +6,7 @@ use crate::step::instruments::Audition;
 use crate::venue::loudness::VolumeRequests;
 use crate::venue::site::Site;
 use crate::visitor::gesture::Lift;
-use soffio_devices::audio::Words;
+use soffio_devices::audio::Utterance;
 use soffio_exhibit::Exhibit;
 use soffio_simulation::Command;
 
@@ -26,7 +26,7 @@ pub enum KioskCommand {
     /// Play a sound for staff.
     PlaySound(Audition),
     /// Play speech; it replaces speech that is playing.
-    PlaySpeech(Words),
+    PlaySpeech(Utterance),
     /// Change the loudness.
     Loudness(VolumeRequests),
 }
@@ -47,7 +47,7 @@ pub struct Batch {
     /// Sound that staff want to hear.
     pub audition: Option<Audition>,
     /// Speech to play.
-    pub words: Option<Words>,
+    pub words: Option<Utterance>,
     /// All requested changes of the loudness.
     pub loudness: VolumeRequests,
 }

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::venue::sweep::{RECORDED_S, SweepResponse, measure_response, sweep};
-use soffio_devices::audio::{AudioStatus, DeviceState, Words};
+use soffio_devices::audio::{AudioStatus, DeviceState, Utterance};
 
 /// Longest wait for the devices to open, s.
 const OPENING_S: f64 = 8.0;
@@ -20,7 +20,7 @@ pub type SelfTestOutcome = Result<SweepResponse, String>;
 #[derive(Debug)]
 pub enum SelfTestAction {
     /// Play the sweep.
-    PlaySweep(Words),
+    PlaySweep(Utterance),
     /// The run is over.
     Done(SelfTestOutcome),
 }
@@ -71,7 +71,7 @@ impl SelfTestRun {
                     }
                     let samples: Arc<[f32]> = sweep(*sample_rate).into();
                     self.0 = SelfTestPhase::Recording { since: time, rate, samples: Vec::new() };
-                    Some(SelfTestAction::PlaySweep(Words { samples, sample_rate: *sample_rate }))
+                    Some(SelfTestAction::PlaySweep(Utterance { samples, sample_rate: *sample_rate }))
                 }
                 (input, output, _) if time - *since >= OPENING_S => {
                     let missing = [("loudspeaker", output), ("microphone", input)]

@@ -9,7 +9,7 @@ use crate::step::command::KioskCommand;
 use crate::visitor::accessibility::AccessibilitySettings;
 use crate::visitor::dwell::Target;
 use crate::visitor::input::{Request, Signal};
-use soffio_devices::audio::{DeviceState, Words};
+use soffio_devices::audio::{DeviceState, Utterance};
 
 impl App<'_> {
     /// Updates reading aloud and swipes, once a frame.
@@ -103,7 +103,7 @@ impl App<'_> {
         }
     }
 
-    fn play_speech(&self, speech: Option<Words>) {
+    fn play_speech(&self, speech: Option<Utterance>) {
         if let Some(speech) = speech {
             self.send(KioskCommand::PlaySpeech(speech));
         }

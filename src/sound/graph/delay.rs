@@ -10,19 +10,19 @@ pub(super) struct DelayLine {
     used: usize,
     at: usize,
     /// Samples until what is on the line has come out.
-    held: usize,
+    tail: usize,
 }
 
 impl DelayLine {
     /// Room for a delay of so many samples. Allocates.
-    pub fn make_room(&mut self, longest: usize) {
+    pub fn allocate(&mut self, longest: usize) {
         if self.line.len() < longest {
             self.line.resize(longest, 0.0);
         }
     }
 
     /// The same room, with nothing in use. Real-time.
-    pub fn emptied(self) -> Self {
+    pub fn into_empty(self) -> Self {
         Self { line: self.line, ..Self::default() }
     }
 
@@ -34,7 +34,7 @@ impl DelayLine {
 
     /// Whether something is still to come out that went in.
     pub fn holds(&self) -> bool {
-        self.held > 0
+        self.tail > 0
     }
 
     /// The next samples: what went in before, of which `feedback` goes in again.
@@ -48,7 +48,7 @@ impl DelayLine {
             let again = x + feedback * *y;
             // Denormal numbers are slow and not heard.
             self.line[self.at] = if again.abs() < 1e-20 { 0.0 } else { again };
-            self.held = if again.abs() > INAUDIBLE { self.used } else { self.held.saturating_sub(1) };
+            self.tail = if again.abs() > INAUDIBLE { self.used } else { self.tail.saturating_sub(1) };
             self.at = if self.at + 1 == self.used { 0 } else { self.at + 1 };
         }
     }

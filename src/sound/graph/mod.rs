@@ -1,11 +1,10 @@
-//! A timbre compiled to a flat list of operators, and the state that one voice keeps for it.
+//! Signal-flow graph of a timbre: a flat list of operators, and the state that a voice or body keeps for it.
 //!
-//! Operators stand in an order in which each comes after those it takes, so one pass over the list renders a block.
-//! Bound numbers are read on a fixed grid of [`CONTROL`] samples of the synth's own clock; levels glide from one grid
-//! point to the next. Everything between is a recurrence sample by sample, so that the result does not
-//! depend on how the caller cuts its blocks.
+//! The list is in topological order, so one pass renders a block. Bound numbers are evaluated on a control grid of
+//! [`CONTROL_PERIOD`] samples of the synth's clock, and levels are interpolated between grid points. All else is a recurrence
+//! sample by sample, so the result does not depend on how the caller cuts its blocks.
 //!
-//! Real-time: delays need room, which [`Graph::make_room`] makes before the first sound; nothing else allocates.
+//! Real-time: [`Graph::allocate`] allocates the delay lines before the first sound; nothing else allocates.
 
 mod block;
 mod delay;
@@ -18,18 +17,18 @@ mod surface;
 use super::InstrumentSpec;
 use super::shared::Shared;
 use super::timbre::{Inputs, MAX_NODES, Number, Preset, TimbreError};
-pub(super) use block::{Block, CONTROL};
-use operator::Kind;
+pub(super) use block::{AudioBlock, CONTROL_PERIOD};
+use operator::OperatorKind;
 use soffio_math::noise::hash_words;
-pub(super) use state::State;
+pub(super) use state::OperatorState;
 pub(super) use surface::Pyramid;
 
-/// Whose sound is rendered: what rings belongs to the body and adds up there, the rest to each hit by itself. A sum of
-/// both is taken apart; everything else that takes what rings is the body's.
+/// Bus of a graph. Modal sound belongs to the body and adds up there; other sound belongs to the voice of each impact. A sum of
+/// both is split; all other operators with a modal input belong to the body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum Bus {
     Body,
-    Hit,
+    Voice,
 }
 
 /// A compiled timbre.
@@ -38,13 +37,13 @@ pub(super) struct Graph {
 }
 
 struct Operator {
-    kind: Kind,
+    kind: OperatorKind,
     /// Indices of the operators it takes, all smaller than its own.
     inputs: Vec<usize>,
     gain: Number,
-    /// Whether what rings is in it.
+    /// Whether it has a modal input.
     rings: bool,
-    /// Whether something of a hit is in it beside.
+    /// Whether it has an input of the voice bus.
     hits: bool,
 }
 
@@ -56,16 +55,16 @@ impl Graph {
         let mut operators: Vec<Operator> = Vec::with_capacity(order.len());
         for name in &order {
             let node = &preset.node[*name];
-            let kind = Kind::compile(node, spec.surface.as_ref(), shared)
+            let kind = OperatorKind::compile(node, spec.surface.as_ref(), shared)
                 .map_err(|problem| TimbreError::new(&preset.name, format!("node.{name}"), problem))?;
             // A bank's level is in its partials already, so that what is inaudible is never started.
-            let gain = if matches!(kind, Kind::Modal) { Number::Fixed(1.0) } else { node.gain() };
+            let gain = if matches!(kind, OperatorKind::Modal) { Number::Fixed(1.0) } else { node.gain() };
             let inputs: Vec<usize> = node.inputs().iter().map(|input| index(input)).collect();
-            let rings = matches!(kind, Kind::Modal) || inputs.iter().any(|&input| operators[input].rings);
+            let rings = matches!(kind, OperatorKind::Modal) || inputs.iter().any(|&input| operators[input].rings);
             let mut hit = inputs.iter().map(|&input| operators[input].hits);
             let hits = match kind {
-                Kind::Modal => false,
-                Kind::Sum => hit.any(|hits| hits),
+                OperatorKind::Modal => false,
+                OperatorKind::Sum => hit.any(|hits| hits),
                 _ => hit.all(|hits| hits),
             };
             operators.push(Operator { kind, inputs, gain, rings, hits });
@@ -73,42 +72,42 @@ impl Graph {
         Ok(Self { operators })
     }
 
-    /// Whether anything of this part is heard.
-    pub fn has(&self, part: Part) -> bool {
-        self.operators.last().is_some_and(|out| out.is_in(part)) || (part == Part::Hit && self.force().is_some())
+    /// Whether this bus has any output.
+    pub fn has(&self, bus: Bus) -> bool {
+        self.operators.last().is_some_and(|out| out.is_in(bus)) || (bus == Bus::Voice && self.force().is_some())
     }
 
-    /// Whether voices drive what rings.
+    /// Whether voices drive the modal bank.
     pub fn drives(&self) -> bool {
         self.force().is_some()
     }
 
-    /// Whether something is still to come out that went in.
-    pub fn holds(&self, states: &[State; MAX_NODES]) -> bool {
+    /// Whether a delay line still holds a signal.
+    pub fn holds(&self, states: &[OperatorState; MAX_NODES]) -> bool {
         let mut delays = self.operators.iter().zip(states);
-        delays.any(|(operator, state)| matches!(operator.kind, Kind::Delay { .. }) && state.holds())
+        delays.any(|(operator, state)| matches!(operator.kind, OperatorKind::Delay { .. }) && state.holds())
     }
 
-    /// The operator whose samples are the force in N that drives what rings.
+    /// The operator whose samples are the force on the modal bank, N.
     fn force(&self) -> Option<usize> {
-        let modal = self.operators.iter().find(|operator| matches!(operator.kind, Kind::Modal))?;
+        let modal = self.operators.iter().find(|operator| matches!(operator.kind, OperatorKind::Modal))?;
         modal.inputs.first().copied()
     }
 
-    /// Room for the delays of voices that may play this. Allocates.
-    pub fn make_room(&self, states: &mut [State; MAX_NODES], sample_rate: f64) {
+    /// Allocates the delay lines of a voice or body that may play this.
+    pub fn allocate(&self, states: &mut [OperatorState; MAX_NODES], sample_rate: f64) {
         for (operator, state) in self.operators.iter().zip(states) {
-            if matches!(operator.kind, Kind::Delay { .. }) {
-                state.make_room(sample_rate);
+            if matches!(operator.kind, OperatorKind::Delay { .. }) {
+                state.allocate(sample_rate);
             }
         }
     }
 
-    /// States of a voice or a body that begins with these inputs.
+    /// Initialises the states of a voice or body with these inputs.
     pub fn begin(
         &self,
-        part: Part,
-        states: &mut [State; MAX_NODES],
+        bus: Bus,
+        states: &mut [OperatorState; MAX_NODES],
         inputs: &Inputs,
         seed: u64,
         time: f64,
@@ -120,57 +119,65 @@ impl Graph {
             operator.kind.begin(state, inputs, i as u64, time, sample_rate);
             operator.kind.tune(state, inputs, sample_rate);
         }
-        self.find_needed(part, states);
+        self.find_needed(bus, states);
     }
 
-    /// A grid point: reads bound numbers. `time` is the synth's, s.
-    pub fn control(&self, part: Part, states: &mut [State; MAX_NODES], inputs: &Inputs, time: f64, sample_rate: f64) {
+    /// Evaluates the bound numbers at a grid point. `time` is the synth's, s.
+    pub fn control(
+        &self,
+        bus: Bus,
+        states: &mut [OperatorState; MAX_NODES],
+        inputs: &Inputs,
+        time: f64,
+        sample_rate: f64,
+    ) {
         for (i, (operator, state)) in self.operators.iter().zip(states.iter_mut()).enumerate() {
-            state.gain_step = (operator.gain.at(inputs) - state.gain) / CONTROL as f64;
+            state.gain_step = (operator.gain.at(inputs) - state.gain) / CONTROL_PERIOD as f64;
             operator.kind.control(state, inputs, i as u64, time, sample_rate);
             operator.kind.tune(state, inputs, sample_rate);
         }
-        self.find_needed(part, states);
+        self.find_needed(bus, states);
     }
 
-    /// What an envelope that is over would shape need not be made: soon after a hit only its partials are left to do.
-    fn find_needed(&self, part: Part, states: &mut [State; MAX_NODES]) {
-        // States behind the operators' are another timbre's: left alone, they stay out of the cache.
-        states[..self.operators.len()].iter_mut().for_each(|state| state.needed = false);
-        let force = if part == Part::Hit { self.force() } else { None };
+    /// Marks the operators that the output needs. Inputs of a finished envelope are not: soon after an impact only its partials
+    /// remain.
+    fn find_needed(&self, bus: Bus, states: &mut [OperatorState; MAX_NODES]) {
+        // States beyond the operators' belong to other timbres and are not touched.
+        states[..self.operators.len()].iter_mut().for_each(|state| state.is_needed = false);
+        let force = if bus == Bus::Voice { self.force() } else { None };
         for (i, operator) in self.operators.iter().enumerate().rev() {
-            let out = i + 1 == self.operators.len() && operator.is_in(part);
-            let heard = out || states[i].needed || force == Some(i);
-            states[i].needed = heard;
-            if heard && !(matches!(operator.kind, Kind::Env { .. }) && states[i].value == 0.0) {
-                let taken = operator.inputs.iter().filter(|&&input| operator.takes(part, &self.operators[input]));
-                taken.for_each(|&input| states[input].needed = true);
+            let out = i + 1 == self.operators.len() && operator.is_in(bus);
+            let heard = out || states[i].is_needed || force == Some(i);
+            states[i].is_needed = heard;
+            if heard && !(matches!(operator.kind, OperatorKind::Env { .. }) && states[i].value == 0.0) {
+                let taken = operator.inputs.iter().filter(|&&input| operator.takes(bus, &self.operators[input]));
+                taken.for_each(|&input| states[input].is_needed = true);
             }
         }
     }
 
-    /// Renders `n` samples, as many as `ringing` has: what rings of the body. The answer is the block of the last
-    /// operator and, for a hit, that of the force on what rings.
+    /// Renders `n` samples; `ringing` holds the body's modal samples. Returns the block of the last operator and, for the voice
+    /// bus, that of the force on the modal bank.
     pub fn render<'a>(
         &self,
-        part: Part,
-        states: &mut [State; MAX_NODES],
+        bus: Bus,
+        states: &mut [OperatorState; MAX_NODES],
         ringing: &[f32],
-        blocks: &'a mut [Block; MAX_NODES],
+        blocks: &'a mut [AudioBlock; MAX_NODES],
         n: usize,
     ) -> (&'a [f32], Option<&'a [f32]>) {
         for (i, operator) in self.operators.iter().enumerate() {
-            if !states[i].needed {
+            if !states[i].is_needed {
                 continue;
             }
             let (before, rest) = blocks.split_at_mut(i);
             let out = &mut rest[0][..n];
             let state = &mut states[i];
             match operator.kind {
-                Kind::Modal => out.copy_from_slice(ringing),
-                Kind::Sum => {
+                OperatorKind::Modal => out.copy_from_slice(ringing),
+                OperatorKind::Sum => {
                     out.fill(0.0);
-                    for &input in operator.inputs.iter().filter(|&&i| operator.takes(part, &self.operators[i])) {
+                    for &input in operator.inputs.iter().filter(|&&i| operator.takes(bus, &self.operators[i])) {
                         out.iter_mut().zip(&before[input]).for_each(|(y, x)| *y += x);
                     }
                 }
@@ -187,28 +194,28 @@ impl Graph {
             state.gain = gain;
         }
         let last = self.operators.len() - 1;
-        if !states[last].needed {
+        if !states[last].is_needed {
             blocks[last][..n].fill(0.0);
         }
-        let force = if part == Part::Hit { self.force() } else { None };
+        let force = if bus == Bus::Voice { self.force() } else { None };
         let blocks = &*blocks;
         (&blocks[last][..n], force.map(|i| &blocks[i][..n]))
     }
 }
 
 impl Operator {
-    fn is_in(&self, part: Part) -> bool {
-        match part {
-            Part::Body => self.rings,
-            Part::Hit => self.hits,
+    fn is_in(&self, bus: Bus) -> bool {
+        match bus {
+            Bus::Body => self.rings,
+            Bus::Voice => self.hits,
         }
     }
 
-    /// Whether this part of it takes an input.
-    fn takes(&self, part: Part, input: &Operator) -> bool {
-        match part {
-            Part::Body => input.rings || !(self.rings && matches!(self.kind, Kind::Modal | Kind::Sum)),
-            Part::Hit => input.hits,
+    /// Whether it takes an input on this bus.
+    fn takes(&self, bus: Bus, input: &Operator) -> bool {
+        match bus {
+            Bus::Body => input.rings || !(self.rings && matches!(self.kind, OperatorKind::Modal | OperatorKind::Sum)),
+            Bus::Voice => input.hits,
         }
     }
 }

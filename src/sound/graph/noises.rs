@@ -7,8 +7,8 @@
 //! **Slow** noise is a function of time, so that all voices feel the same gust. Where all its octaves are below a quarter
 //! of the control rate it is read on the grid and glides; otherwise it is read at each sample, up to fs/8.
 
-use super::block::CONTROL;
-use super::state::{PINK, State};
+use super::block::CONTROL_PERIOD;
+use super::state::{OperatorState, PINK};
 use crate::gusts::multifractal;
 use crate::timbre::{Noise, NoiseKind};
 use soffio_math::noise::{hash, perlin1};
@@ -38,7 +38,7 @@ impl Pink {
         Self { sections }
     }
 
-    pub fn render(&self, state: &mut State, out: &mut [f32]) {
+    pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         for y in out {
             let mut x = MAKE_UP * state.random.signed();
             for ([pole, zero, gain], memory) in self.sections.iter().zip(&mut state.pink) {
@@ -68,8 +68,8 @@ impl Slow {
 
     /// Octaves below a rate in Hz.
     fn octaves_below(&self, rate: f64) -> u32 {
-        let room = ln((rate / self.base).max(1.0)) / ln(2.0);
-        self.octaves.min(1 + room as u32)
+        let octaves = ln((rate / self.base).max(1.0)) / ln(2.0);
+        self.octaves.min(1 + octaves as u32)
     }
 
     fn at(&self, t: f64, octaves: u32, seed: u64) -> f64 {
@@ -88,10 +88,10 @@ impl Slow {
 
     /// Whether it must be read at each sample.
     fn is_fast(&self, sample_rate: f64) -> bool {
-        self.octaves_below(0.25 * sample_rate / CONTROL as f64) < self.octaves
+        self.octaves_below(0.25 * sample_rate / CONTROL_PERIOD as f64) < self.octaves
     }
 
-    pub fn begin(&self, state: &mut State, seed: u64, time: f64, sample_rate: f64) {
+    pub fn begin(&self, state: &mut OperatorState, seed: u64, time: f64, sample_rate: f64) {
         if self.is_fast(sample_rate) {
             (state.place, state.step) = (time, 1.0 / sample_rate);
         } else {
@@ -100,16 +100,16 @@ impl Slow {
         (state.seed, state.octaves) = (seed, self.octaves_below(0.125 * sample_rate));
     }
 
-    pub fn control(&self, state: &mut State, seed: u64, time: f64, sample_rate: f64) {
+    pub fn control(&self, state: &mut OperatorState, seed: u64, time: f64, sample_rate: f64) {
         if self.is_fast(sample_rate) {
             state.place = time;
         } else {
-            let next = self.at(time + CONTROL as f64 / sample_rate, self.octaves, seed);
-            state.change = (next - state.value) / CONTROL as f64;
+            let next = self.at(time + CONTROL_PERIOD as f64 / sample_rate, self.octaves, seed);
+            state.change = (next - state.value) / CONTROL_PERIOD as f64;
         }
     }
 
-    pub fn render(&self, state: &mut State, out: &mut [f32]) {
+    pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         for y in out {
             if state.step > 0.0 {
                 state.value = self.at(state.place, state.octaves, state.seed);

@@ -1,22 +1,22 @@
-//! The kinds of operators: how each begins, follows the motion, and renders.
+//! The kinds of operators: initial state, control and rendering of each.
 
 use std::sync::Arc;
 
-use super::block::{Block, CONTROL};
+use super::block::{AudioBlock, CONTROL_PERIOD};
 use super::noises::{Pink, Slow};
-use super::state::State;
+use super::state::OperatorState;
 use super::surface::Pyramid;
 use crate::SurfaceLine;
 use crate::shared::Shared;
 use crate::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
 use soffio_math::exp;
 
-/// An envelope below this is over: −120 dB.
+/// An envelope ends below this: −120 dB.
 const OVER: f64 = 1e-6;
 /// Shortest time constant of an envelope, s.
 const SHORTEST: f64 = 1e-5;
 
-pub(super) enum Kind {
+pub(super) enum OperatorKind {
     Modal,
     White,
     Pink(Pink),
@@ -48,7 +48,7 @@ pub(super) enum Kind {
     Smooth,
 }
 
-impl Kind {
+impl OperatorKind {
     /// An operator of a checked node. The error says what the node lacks.
     pub fn compile(node: &Node, surface: Option<&SurfaceLine>, shared: &mut Shared) -> Result<Self, String> {
         Ok(match node {
@@ -80,7 +80,7 @@ impl Kind {
     }
 
     /// The first state of a voice.
-    pub fn begin(&self, state: &mut State, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
+    pub fn begin(&self, state: &mut OperatorState, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
         match self {
             Self::Env { attack, decay } => {
                 let attack = attack.at(inputs);
@@ -108,28 +108,28 @@ impl Kind {
     }
 
     /// A point of the control grid.
-    pub fn control(&self, state: &mut State, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
+    pub fn control(&self, state: &mut OperatorState, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
         match self {
             Self::Slow(slow) => slow.control(state, seed, time, sample_rate),
             Self::Texture { line, speed } => {
                 let target = line.step(speed.at(inputs), sample_rate);
-                state.change = (target - state.value) / CONTROL as f64;
-                state.level[1] = (line.level(target) - state.level[0]) / CONTROL as f64;
+                state.change = (target - state.value) / CONTROL_PERIOD as f64;
+                state.level[1] = (line.level(target) - state.level[0]) / CONTROL_PERIOD as f64;
             }
             _ => {}
         }
     }
 
     /// Coefficients of a filter for the inputs of this moment.
-    pub fn tune(&self, state: &mut State, inputs: &Inputs, sample_rate: f64) {
+    pub fn tune(&self, state: &mut OperatorState, inputs: &Inputs, sample_rate: f64) {
         if let Self::Filter { cutoff, q, .. } = self {
             let hz = cutoff.at(inputs).clamp(5.0, 0.45 * sample_rate);
             state.filter.tune(hz, q.at(inputs).clamp(0.1, 100.0), sample_rate);
         }
     }
 
-    /// The next samples. Sums and what rings are the graph's.
-    pub fn render(&self, state: &mut State, inputs: &[usize], blocks: &[Block], out: &mut [f32]) {
+    /// Renders the next samples. The graph itself renders sums and modal nodes.
+    pub fn render(&self, state: &mut OperatorState, inputs: &[usize], blocks: &[AudioBlock], out: &mut [f32]) {
         let first = inputs.first().map(|&i| &blocks[i][..out.len()]);
         match (self, first) {
             (Self::White, _) => out.iter_mut().for_each(|y| *y = state.random.signed() as f32),
@@ -167,7 +167,7 @@ impl Kind {
                     out.iter_mut().zip(&blocks[other]).for_each(|(y, x)| *y *= x);
                 }
             }
-            // A checked preset gives each of these an input; the graph itself makes sums and what rings.
+            // A checked preset gives each of these an input; the graph renders sums and modal nodes.
             _ => out.fill(0.0),
         }
     }

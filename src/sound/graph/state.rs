@@ -10,12 +10,12 @@ pub(super) const PINK: usize = 6;
 
 /// What one operator of one voice remembers.
 #[derive(Clone)]
-pub(crate) struct State {
+pub(crate) struct OperatorState {
     /// Level now, and its change per sample.
     pub gain: f64,
     pub gain_step: f64,
     /// Whether anything that is heard takes this operator.
-    pub needed: bool,
+    pub is_needed: bool,
     pub(super) random: Random,
     /// Env, slow noise and texture: value now; env: factor per sample; others: change per sample.
     pub value: f64,
@@ -38,13 +38,13 @@ pub(crate) struct State {
     pub(super) delay: DelayLine,
 }
 
-impl State {
+impl OperatorState {
     /// At rest.
     pub fn new(seed: u64) -> Self {
         Self {
             gain: 0.0,
             gain_step: 0.0,
-            needed: false,
+            is_needed: false,
             random: Random::new(seed),
             value: 0.0,
             change: 0.0,
@@ -69,12 +69,12 @@ impl State {
 
     /// At rest again; the room of a delay stays. Real-time.
     pub fn reset(&mut self, seed: u64) {
-        let delay = std::mem::take(&mut self.delay).emptied();
+        let delay = std::mem::take(&mut self.delay).into_empty();
         *self = Self { delay, ..Self::new(seed) };
     }
 
     /// Room for the longest delay. Allocates.
-    pub(super) fn make_room(&mut self, sample_rate: f64) {
-        self.delay.make_room((LONGEST_DELAY * sample_rate) as usize + 1);
+    pub(super) fn allocate(&mut self, sample_rate: f64) {
+        self.delay.allocate((LONGEST_DELAY * sample_rate) as usize + 1);
     }
 }

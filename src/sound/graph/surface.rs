@@ -1,21 +1,20 @@
-//! The line of a surface that a sliding contact reads, as a gramophone's needle does: F(t) = f(s(t)), ds = v dt.
+//! Surface profiles: a sliding contact reads a line of the surface as a gramophone's needle does, F(t) = f(s(t)), ds = v dt.
 //!
 //! The faster it is read, the higher its spectrum; what would come out above half the sample rate must be gone before.
 //! So the line is kept as a pyramid, as textures are in graphics: each level is the one below, low-passed and thinned
 //! out by two. At speed v a step is v/(fs Δ) points; where it is 2^λ, levels ⌊λ⌋ and ⌊λ⌋ + 1 are read and blended.
 //!
-//! Each level holds nothing above ¼ of its own rate, half of what it could: read at up to two of its points a sample
-//! it stays below fs/2, and the images of what it holds begin at ¾, so that a short kernel removes them.
+//! Each level holds nothing above ¼ of its own rate, half of its bandwidth. Read at up to two of its points a sample, it stays
+//! below fs/2. Its images begin at ¾, so a short kernel removes them.
 //!
-//! **No end**: a procedural line is 0.3 m long, and an ear knows a turn of it again. So it is read in pieces from anywhere on
-//! it, each faded into the next with equal power: no piece of the way comes back, though the line in store is short. The
-//! fades are as far apart as a hand is wide. A picture is read as it is: who draws it means its order.
+//! **No repetition**: a procedural line is 0.3 m long, and its repetition would be audible. So it is read in pieces from random
+//! positions, cross-faded with equal power, about a hand's width each. A picture is read in its own order.
 //!
 //! **Solid textures** (Perlin, SIGGRAPH 1985): the line is a circle through the solid, so it closes without a seam. Wood:
 //! rings about an axis beside it, pores at the start of each; marble: a sine of the way, disturbed by turbulence; rough:
 //! octaves of noise, amplitude 2^(−iH), hence a spectrum of slope −1 − 2H.
 
-use super::state::State;
+use super::state::OperatorState;
 use crate::SurfaceLine;
 use crate::timbre::{Texture, TextureKind};
 use soffio_math::noise::{Random, hash_words, perlin3};
@@ -121,7 +120,7 @@ impl Pyramid {
         if self.endless { self.points() as f64 * random.range(PIECE.0, PIECE.1) } else { f64::INFINITY }
     }
 
-    pub fn render(&self, state: &mut State, out: &mut [f32]) {
+    pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         let points = self.points() as f64;
         let on = |place: f64, way: f64| if place + way >= points { place + way - points } else { place + way };
         let fade = FADE * points;

@@ -1,4 +1,4 @@
-//! The inner loops of all ringing, for every set of vector instructions.
+//! Inner loops of modal synthesis, for every SIMD instruction set.
 //!
 //! A partial is a phasor z that turns and shrinks by ρ = e^((−c + iω)/fs) per sample and is heard as Im z. A block of
 //! [`BLOCK`] samples is cut into [`FRAMES`] frames of [`FRAME`]. The phasor at the start of frame m is z_m = z ρ^(16 m),
@@ -12,14 +12,14 @@
 //! block to block, z ← z ρ^64, is f64, so pitch and decay are exact to about 1e−12; within a block f32 does (−130 dB).
 //! Partials lie in groups of [`GROUP`], whose z_m are computed side by side.
 //!
-//! **Bits.** Every sum has one order at every level of instructions. Where the processor fuses a multiply-add (AVX2,
-//! AVX-512, NEON) it is rounded once, where it does not (SSE2, SSE4.2, plain code) twice: each of the two classes has
-//! its own bits, the same on every processor of the class, and both are within 1e−4.5 (−90 dB) of the closed form.
-//! [`fuses`] says which class a level is of. Exact fusing in f64 would cost a processor without it ten times the work.
+//! **Bits.** Every sum has one order at every level of instructions. A processor with fused multiply-add (AVX2, AVX-512, NEON)
+//! rounds it once, others (SSE2, SSE4.2, plain code) twice. Each of the two classes has
+//! its own bits, equal on every processor of the class, and both are within 1e−4.5 (−90 dB) of the closed form.
+//! [`fuses`] returns the class of a level. Exact fusing in f64 would cost a processor without it ten times the work.
 //!
 //! **Driven** by a force f_j at audio rate, z_(j+1) = ρ (z_j + b f_j) for a partial of gain b. Over one frame the force
-//! adds d = Σ_k f_k ρ^(16−k) to the phasor (by Horner's rule, a group side by side), and within the frame it is heard
-//! through the body's first sixteen samples of impulse response h_k = Σ b Im ρ^k: exact but for rounding.
+//! adds d = Σ_k f_k ρ^(16−k) to the phasor (by Horner's rule, a group side by side). Within the frame it acts
+//! through the first sixteen samples of the body's impulse response, h_k = Σ b Im ρ^k. Both are exact but for rounding.
 
 use fearless_simd::prelude::*;
 use std::hint::black_box;
@@ -67,16 +67,16 @@ impl<S: Simd> Sums<S> {
     }
 }
 
-/// What turns a group's phasors from frame to frame and from block to block.
+/// Rotators of a group's phasors from frame to frame and from block to block.
 #[derive(Clone)]
-struct Turns {
+struct BlockRotators {
     /// ρ^64.
     jump: Phasors<f64>,
     /// ρ^16, ρ^32, ρ^48.
     steps: [Phasors<f32>; FRAMES - 1],
 }
 
-/// A group's partials: what turns their phasors, and where they are.
+/// Partials of a group: their rotators and phasors.
 #[derive(Clone)]
 #[repr(C, align(64))]
 pub(super) struct Group {
@@ -84,7 +84,7 @@ pub(super) struct Group {
     pub rows: [[[f32; FRAME]; 2]; GROUP],
     /// z at the start of the next block.
     pub state: Phasors<f64>,
-    turns: Turns,
+    rotators: BlockRotators,
     /// Gain b of a force; real: now, and at the end of the next block, each frame a step on the way.
     pub push: [[f32; GROUP]; 2],
     /// Partials in use.
@@ -97,7 +97,7 @@ impl Group {
         Self {
             rows: [[[0.0; FRAME]; 2]; GROUP],
             state: [[0.0; GROUP]; 2],
-            turns: Turns { jump: [[0.0; GROUP]; 2], steps: [[[0.0; GROUP]; 2]; FRAMES - 1] },
+            rotators: BlockRotators { jump: [[0.0; GROUP]; 2], steps: [[[0.0; GROUP]; 2]; FRAMES - 1] },
             push: [[0.0; GROUP]; 2],
             count: 0,
         }
@@ -111,11 +111,11 @@ impl Group {
             power = times(power, rho);
         }
         let frame = power;
-        for step in &mut self.turns.steps {
+        for step in &mut self.rotators.steps {
             (step[0][i], step[1][i]) = (power[0] as f32, power[1] as f32);
             power = times(power, frame);
         }
-        (self.turns.jump[0][i], self.turns.jump[1][i]) = (power[0], power[1]);
+        (self.rotators.jump[0][i], self.rotators.jump[1][i]) = (power[0], power[1]);
     }
 
     /// ρ^n of partial `i`, n ≤ [`BLOCK`], to f32's rounding.
@@ -123,8 +123,8 @@ impl Group {
         let row = [self.rows[i][0][n % FRAME], self.rows[i][1][n % FRAME]].map(f64::from);
         match n / FRAME {
             0 => row,
-            FRAMES => [self.turns.jump[0][i], self.turns.jump[1][i]],
-            m => times(row, [self.turns.steps[m - 1][0][i], self.turns.steps[m - 1][1][i]].map(f64::from)),
+            FRAMES => [self.rotators.jump[0][i], self.rotators.jump[1][i]],
+            m => times(row, [self.rotators.steps[m - 1][0][i], self.rotators.steps[m - 1][1][i]].map(f64::from)),
         }
     }
 
@@ -144,7 +144,7 @@ impl Group {
     }
 }
 
-/// Whether a level rounds a multiply-add once: what decides the bits of all that rings.
+/// Whether a level rounds a multiply-add once, which decides the bits of modal synthesis.
 pub fn fuses(level: Level) -> bool {
     #[inline(always)]
     fn residue<S: Simd>(simd: S) -> f32 {
@@ -165,18 +165,18 @@ pub(super) fn times(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 /// Adds a block of the group's own ringing and moves its phasors to the next.
 #[inline(always)]
 pub(super) fn ring<S: Simd>(simd: S, group: &mut Group, sums: &mut Sums<S>) {
-    let states = turn(simd, &mut group.state, &group.turns);
+    let states = rotate(simd, &mut group.state, &group.rotators);
     read(simd, group, &states, sums);
 }
 
-/// As [`ring`] for a group that a force drives; what is heard at once, [`respond`], is not in it.
+/// As [`ring`] for a group that a force drives, without the immediate response ([`add_response`]).
 #[inline(always)]
 pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLOCK], sums: &mut Sums<S>) {
-    let mut states = turn(simd, &mut group.state, &group.turns);
+    let mut states = rotate(simd, &mut group.state, &group.rotators);
     let load = |x: &Phasors<f32>| x.map(|part| -> f32x16<S> { part.simd_into(simd) });
     let silence = [f32x16::splat(simd, 0.0); 2];
     let mut driven = silence;
-    let frame = load(&group.turns.steps[0]);
+    let frame = load(&group.rotators.steps[0]);
     let rho = load(&std::array::from_fn(|part| std::array::from_fn(|i| group.rows[i][part][1])));
     let push = load(&group.push);
     for (m, force) in force.as_chunks::<FRAME>().0.iter().enumerate() {
@@ -184,14 +184,14 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
             let [re, im] = load(&states.0[m]);
             states.0[m] = [(re + driven[0]).into(), (im + driven[1]).into()];
         }
-        let on_the_way = m as f32 / FRAMES as f32;
+        let glide = m as f32 / FRAMES as f32;
         let mut d = silence;
         for f in force {
             let [re, im] = [d[0] + *f, d[1]];
             d = [re * rho[0] - im * rho[1], re * rho[1] + im * rho[0]];
         }
         let [re, im] = driven;
-        let b = push[0] + (push[1] - push[0]) * on_the_way;
+        let b = push[0] + (push[1] - push[0]) * glide;
         driven = [re * frame[0] - im * frame[1] + b * d[0], re * frame[1] + im * frame[0] + b * d[1]];
     }
     let driven: Phasors<f32> = driven.map(Into::into);
@@ -206,17 +206,17 @@ pub(super) fn ring_driven<S: Simd>(simd: S, group: &mut Group, force: &[f32; BLO
 /// Adds a block of other phasors that turn as this group's do, and moves them to the next.
 #[inline(always)]
 pub(super) fn ring_beside<S: Simd>(simd: S, group: &Group, phasors: &mut Phasors<f64>, sums: &mut Sums<S>) {
-    let states = turn(simd, phasors, &group.turns);
+    let states = rotate(simd, phasors, &group.rotators);
     read(simd, group, &states, sums);
 }
 
 /// Adds what a force gives within its own frames through the first samples of the impulse response, which goes from one
 /// to the other over the block.
-pub(super) fn respond(force: &[f32; BLOCK], [from, to]: &[[f32; FRAME]; 2], out: &mut [f32]) {
+pub(super) fn add_response(force: &[f32; BLOCK], [from, to]: &[[f32; FRAME]; 2], out: &mut [f32]) {
     let frames = force.as_chunks::<FRAME>().0.iter().zip(out.as_chunks_mut::<FRAME>().0);
     for (m, (force, out)) in frames.enumerate() {
-        let on_the_way = m as f32 / FRAMES as f32;
-        let h: [f32; FRAME] = std::array::from_fn(|k| from[k] + on_the_way * (to[k] - from[k]));
+        let glide = m as f32 / FRAMES as f32;
+        let h: [f32; FRAME] = std::array::from_fn(|k| from[k] + glide * (to[k] - from[k]));
         for (k, f) in force.iter().enumerate() {
             for (y, h) in out[k..].iter_mut().zip(&h) {
                 *y += f * h;
@@ -227,7 +227,7 @@ pub(super) fn respond(force: &[f32; BLOCK], [from, to]: &[[f32; FRAME]; 2], out:
 
 /// The phasors at the start of each frame; `z` moves on to the next block.
 #[inline(always)]
-fn turn<S: Simd>(simd: S, z: &mut Phasors<f64>, group: &Turns) -> States {
+fn rotate<S: Simd>(simd: S, z: &mut Phasors<f64>, group: &BlockRotators) -> States {
     let [low, high] = [0, 8];
     let load = |x: &[f64; GROUP], from: usize| f64x8::from_slice(simd, &x[from..from + 8]);
     let mut narrow = [f32x16::splat(simd, 0.0); 2];

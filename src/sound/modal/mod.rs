@@ -1,18 +1,18 @@
-//! What rings: banks of decaying partials that belong to bodies, not to hits. Ringing is linear, so a hit adds to what
-//! rings already, wherever it falls, and nothing is ever cut off to make room for it.
+//! Modal synthesis (Adrien, "The missing link: modal synthesis", 1991): banks of decaying partials. A bank belongs to
+//! a body, not to an impact. The synthesis is linear, so an impact adds to the present vibration at any time, and no voice is ever stolen for it.
 //!
-//! | file | what |
+//! | file | contents |
 //! |---|---|
 //! | `kernel` | the inner loops, for every set of vector instructions |
-//! | `pulse` | a hit's force over time and the ringing it leaves |
-//! | `ceiling` | for benchmarks: what the processor allows |
-//! | `bank` | the partials of one body: hits, a force at audio rate, touch, what has died away |
+//! | `pulse` | force of an impact over time, and the free decay after it |
+//! | `peak_throughput` | for benchmarks: peak rate of multiply-adds |
+//! | `bank` | the partials of one body: impacts, a force at audio rate, damping, release |
 
 mod bank;
-mod ceiling;
 mod kernel;
+mod peak_throughput;
 mod pulse;
 
 pub use bank::{Bank, Partial};
-pub use ceiling::multiply_adds;
 pub use kernel::{BLOCK, FRAME, GROUP, fuses};
+pub use peak_throughput::multiply_adds;

@@ -106,7 +106,7 @@ pub(super) fn tube(tube: &Tube, matter: &Matter, modal: &Modal) -> Result<Vec<Mo
     };
     let sounding = Sounding { section, radius: 0.5 * outer, hang: tube.hang, radiates: tube.radiation_loss };
     let half = 0.5 * tube.split;
-    // Whoever hits it hears both planes push the same way at first: the stroke is the loudest moment, then they beat.
+    // Both planes start in phase: the stroke is the loudest moment, then they beat.
     let planes = [(-half, Some(tube.plane)), (half, Some(tube.plane - 0.5 * PI))];
     sounding.partials(matter, modal, if tube.split > 0.0 { &planes } else { &[(0.0, None)] })
 }

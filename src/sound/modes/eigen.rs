@@ -1,7 +1,7 @@
 //! The symmetric eigenproblem K x = λ M x of small dense matrices.
 //!
 //! Cholesky M = L Lᵀ turns it into the ordinary problem C v = λ v with C = L⁻¹ K L⁻ᵀ and x = L⁻ᵀ v, which cyclic
-//! Jacobi rotations solve (Golub and Van Loan, "Matrix Computations", 8.5): slow for large matrices, but short,
+//! Jacobi rotations solve (Golub and Van Loan, "Matrix Computations", 8.5). That is slow for large matrices, but short,
 //! unconditionally stable and accurate for small eigenvalues too. Only the four operations and square roots: the same
 //! bits everywhere.
 //!

@@ -1,6 +1,6 @@
-//! Bounds of what is heard of a mode.
+//! Audible range of modes.
 
 /// T60 · c: a fall by 60 dB is e^(−6.908).
 pub const T60_DECAYS: f64 = 6.907_755_278_982_137;
-/// Nothing above is heard, Hz.
+/// Highest audible frequency, Hz.
 pub const HIGHEST: f64 = 20_000.0;

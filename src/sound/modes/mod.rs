@@ -9,13 +9,13 @@
 
 mod bars;
 mod beam;
-mod drawn;
 mod eigen;
 mod limits;
-mod line;
 mod mode;
 mod plate;
+mod random;
 mod shape;
+mod string;
 
 pub use beam::{BeamMode, Section, beam_modes};
 pub use limits::{HIGHEST, T60_DECAYS};
@@ -46,9 +46,9 @@ pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec, shared: &mut Shared) -
         Source::Table(table) => tabled(table, modal.support_loss),
         Source::Tube(tube) => bars::tube(tube, &Matter::new(spec, &tube.material), modal)?,
         Source::Bar(bar) => bars::bar(bar, &Matter::new(spec, &bar.material), modal)?,
-        Source::String(string) => line::string(string, &Matter::new(spec, &string.material), modal)?,
-        Source::MassSpring(spring) => line::mass_spring(spring, &spec.body, modal.support_loss)?,
-        Source::Random(drawn) => drawn::partials(drawn, modal),
+        Source::String(given) => string::string(given, &Matter::new(spec, &given.material), modal)?,
+        Source::MassSpring(spring) => string::mass_spring(spring, &spec.body, modal.support_loss)?,
+        Source::Random(drawn) => random::partials(drawn, modal),
     };
     modes.truncate(modal.partials);
     Ok((modes, outline_exponent(&spec.body)))

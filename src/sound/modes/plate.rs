@@ -184,12 +184,12 @@ struct Quadrature {
 impl Quadrature {
     /// Gauss-Legendre in y up to the rim; in x through x = 1 − (1 − t)², which makes the rim of an ellipse smooth.
     fn new(p: f64) -> Self {
-        let (across, along) = (gauss_legendre(2 * DEGREE + 2), gauss_legendre(DEGREE + 2));
-        let mut points = Vec::with_capacity(across.len() * along.len());
-        for &(t, wt) in &across {
+        let (columns, rows) = (gauss_legendre(2 * DEGREE + 2), gauss_legendre(DEGREE + 2));
+        let mut points = Vec::with_capacity(columns.len() * rows.len());
+        for &(t, wt) in &columns {
             let x = 1.0 - (1.0 - t) * (1.0 - t);
             let rim = if p.is_finite() { pow(1.0 - pow(x, p), 1.0 / p) } else { 1.0 };
-            for &(s, ws) in &along {
+            for &(s, ws) in &rows {
                 points.push(Point { x, y: s * rim, weight: wt * 2.0 * (1.0 - t) * ws * rim });
             }
         }

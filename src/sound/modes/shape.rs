@@ -65,9 +65,7 @@ impl Shape {
                 turned * mode.shape(0.5 * x)
             }
             Self::String(n) => std::f64::consts::SQRT_2 * sin(PI * *n as f64 * 0.5 * (x + 1.0)),
-            Self::Wave([along, across], phase) => {
-                std::f64::consts::SQRT_2 * cos(0.5 * PI * (along * x + across * y) + phase)
-            }
+            Self::Wave([kx, ky], phase) => std::f64::consts::SQRT_2 * cos(0.5 * PI * (kx * x + ky * y) + phase),
         }
     }
 }

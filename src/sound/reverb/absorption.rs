@@ -1,4 +1,4 @@
-//! How much a delay line must take at each frequency for a room to decay as asked.
+//! Absorption filters of the delay lines: frequency-dependent decay of a feedback delay network.
 //!
 //! A line of m samples that is passed once every m/fs seconds loses 60 dB in T(f) when each pass loses
 //! (Jot and Chaigne, "Digital delay networks for designing artificial reverberators", 90th AES Convention, 1991)
@@ -8,7 +8,7 @@
 //! ```
 //!
 //! T is asked for at seven octaves. The line's filter is a gain and six second-order shelves, one where two octaves meet,
-//! each of which raises what lies above its corner by a factor h (with A = √h, w = tan(π f/fs), Butterworth's flanks):
+//! each of which raises frequencies above its corner by a factor h (with A = √h, w = tan(π f/fs), Butterworth's flanks):
 //!
 //! ```text
 //! H(s) = A (A s² + √(2A) w s + w²)/(s² + √(2A) w s + A w²)      s = (1 − z⁻¹)/(1 + z⁻¹)
@@ -21,7 +21,7 @@
 //! | symbol | here | unit |
 //! |---|---|---|
 //! | T(f) | `t60` | s |
-//! | G(f) | `wanted` | dB |
+//! | G(f) | `target` | dB |
 //! | h | `rise`, in dB | 1 |
 
 use super::lines::{BANDS, LINES};
@@ -29,12 +29,12 @@ use soffio_math::{PI, amplitude_to_db, db_to_amplitude, sincos, sqrt};
 
 /// Shelves of a line: one between two octaves.
 pub(super) const SHELVES: usize = BANDS.len() - 1;
-/// Rounds of Newton's method; four leave less than 10⁻⁹ dB for all that the configuration lets pass.
+/// Iterations of Newton's method; four leave less than 10⁻⁹ dB for all valid specifications.
 const ROUNDS: usize = 8;
 /// Step of the differences, dB.
 const STEP: f64 = 1e-3;
-/// Loudest that any line may be at any frequency, dB: below 0, so that every sound dies away.
-const LOUDEST: f64 = -1e-3;
+/// Greatest gain of a line at any frequency, dB: below 0, so that every sound decays.
+const FAULT_LEVEL: f64 = -1e-3;
 
 /// y = b0 x + s₁, s₁ ← b1 x − a1 y + s₂, s₂ ← b2 x − a2 y: b0, b1, b2, a1, a2.
 type Shelf = [f64; 5];
@@ -79,8 +79,8 @@ pub(super) struct Absorption {
 impl Absorption {
     /// For a line of so many samples in a room of these decay times, s.
     pub fn new(samples: usize, t60: &[f64; BANDS.len()], sample_rate: f64) -> Self {
-        let wanted = t60.map(|t| -60.0 * samples as f64 / (sample_rate * t));
-        let mut filter = Self { gain: wanted[0], rises: [0.0; SHELVES] };
+        let target = t60.map(|t| -60.0 * samples as f64 / (sample_rate * t));
+        let mut filter = Self { gain: target[0], rises: [0.0; SHELVES] };
         for _ in 0..ROUNDS {
             let now = filter.levels(sample_rate);
             // One row a centre: slopes of its level, and what it lacks.
@@ -92,8 +92,8 @@ impl Absorption {
                     row[unknown] = (after - before) / STEP;
                 }
             }
-            for (row, (wanted, now)) in rows.iter_mut().zip(wanted.iter().zip(&now)) {
-                row[BANDS.len()] = wanted - now;
+            for (row, (target, now)) in rows.iter_mut().zip(target.iter().zip(&now)) {
+                row[BANDS.len()] = target - now;
             }
             solve(&mut rows);
             for (unknown, row) in rows.iter().enumerate() {
@@ -141,7 +141,7 @@ impl Absorption {
             loudest = loudest.max(self.level(frequency, sample_rate));
             frequency *= ratio;
         }
-        loudest <= LOUDEST
+        loudest <= FAULT_LEVEL
     }
 }
 

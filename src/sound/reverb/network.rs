@@ -1,9 +1,8 @@
-//! The inner loop of the room: delay lines, what absorbs in them and what mixes them, a chunk of frames at a time.
+//! Inner loop of the reverb: delay lines, absorption filters and mixing matrix, a chunk of frames at a time.
 //!
-//! No line is shorter than a chunk, so that nothing that leaves a line within one has gone in within it. Delays and the
-//! mixing go frame by frame side by side; the filters, which wait for their own last answer, line by line side by side:
-//! between the two the numbers are turned, rows for columns. Each number is made as it would be alone, so chunks of any
-//! lengths give the same bits.
+//! No line is shorter than a chunk, so a chunk's output does not depend on its input. Delays and mixing are vectorised over frames;
+//! the recursive filters are vectorised over lines, with a transposition between. Each number is computed as it would be
+//! alone, so chunks of any length give the same bits.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16, u32x16};
@@ -35,8 +34,7 @@ const fn is_negative(r: usize, i: usize) -> bool {
     (r & i).count_ones() % 2 == 1
 }
 
-/// A delay: what goes in comes out again after as many frames as it is long. Behind the end of the ring its first chunk stands once
-/// more, so that a chunk lies in one piece wherever it begins.
+/// A delay line. The first chunk of the ring is repeated behind its end, so that a chunk is contiguous wherever it begins.
 pub(super) struct Delay {
     samples: Vec<f32>,
     at: usize,
@@ -58,14 +56,14 @@ impl Delay {
         self.samples.fill(0.0);
     }
 
-    /// What comes out next.
+    /// The next chunk of output.
     #[inline(always)]
     fn read<S: Simd>(&self, simd: S) -> f32x16<S> {
         let chunk: Chunk = self.samples[self.at..].first_chunk().copied().unwrap_or_default();
         chunk.simd_into(simd)
     }
 
-    /// Takes in the first `n` of a chunk for those that came out.
+    /// Writes the first `n` of a chunk in place of those that were read.
     #[inline(always)]
     fn write(&mut self, chunk: &Chunk, n: usize) {
         match self.samples[self.at..].first_chunk_mut() {
@@ -102,7 +100,7 @@ impl Delay {
     }
 }
 
-/// All lines, and their filters.
+/// All lines and their filters.
 pub(super) struct Network {
     lines: [Delay; LINES],
     absorption: Absorptions,
@@ -116,24 +114,24 @@ impl Network {
         Self { lines: lengths.map(Delay::new), absorption, states: [[[0.0; LINES]; 2]; SHELVES] }
     }
 
-    /// Forgets what is left in the filters.
-    pub fn still(&mut self) {
+    /// Clears the states of the filters.
+    pub fn clear_filters(&mut self) {
         self.states = [[[0.0; LINES]; 2]; SHELVES];
     }
 
     /// Takes `n` frames of the left and of the right side in; answers what comes out on either, and whether at a frame anything has
     /// gone into any line: 0 where nothing has.
     #[inline(always)]
-    pub fn run<S: Simd>(&mut self, simd: S, fed: [f32x16<S>; 2], n: usize) -> ([f32x16<S>; 2], u32x16<S>) {
+    pub fn run<S: Simd>(&mut self, simd: S, input: [f32x16<S>; 2], n: usize) -> ([f32x16<S>; 2], u32x16<S>) {
         let by_lines: [f32x16<S>; LINES] = std::array::from_fn(|i| self.lines[i].read(simd));
-        let mut frames = turned(by_lines);
+        let mut frames = transposed(by_lines);
         self.absorb(simd, &mut frames[..n]);
-        let mut y = turned(frames);
+        let mut y = transposed(frames);
         mix(&mut y);
-        let fed = fed.map(|side| side * INTO);
+        let input = input.map(|side| side * INTO);
         let mut any = u32x16::splat(simd, 0);
         for i in 0..LINES {
-            let side = fed[i % 2];
+            let side = input[i % 2];
             let into = floored(if is_negative(INTO_ROW, i) { y[i] - side } else { y[i] + side });
             any |= into.bitcast::<u32x16<S>>();
             self.lines[i].write(&into.into(), n);
@@ -181,7 +179,7 @@ fn mix<S: Simd>(y: &mut [f32x16<S>; LINES]) {
 
 /// Rows for columns: each round takes the highest bit of a number's row for the lowest of its column.
 #[inline(always)]
-fn turned<S: Simd>(mut rows: [f32x16<S>; LINES]) -> [f32x16<S>; LINES] {
+fn transposed<S: Simd>(mut rows: [f32x16<S>; LINES]) -> [f32x16<S>; LINES] {
     for _ in 0..LINES.ilog2() {
         let before = rows;
         for i in 0..LINES / 2 {

@@ -1,5 +1,5 @@
-//! Timbre presets: a sound as data. A preset names nodes; each node takes other nodes by name, so that the whole is a
-//! graph without rings, and `out` is what is heard. Any [`Number`] may follow the motion instead of standing still.
+//! Timbre presets: a sound as data. A preset names nodes. Each node takes other nodes by name; the whole is an acyclic graph whose
+//! output is `out`. Any [`Number`] may be constant or follow the motion.
 //!
 //! Presets are compiled into the program: the kiosk needs no path. Unknown keys are refused; every error says which
 //! file, line and key, what is wrong and what would be right. No text makes this panic.

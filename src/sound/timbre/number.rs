@@ -5,8 +5,8 @@
 //! factor = (offset + x)^power        term = scale · x^power
 //! ```
 //!
-//! x is an [`Input`]. A power keeps the sign of what it raises; 0 raised to a negative power is 0 (what follows nothing
-//! is nothing), so no input can make a number that is not finite.
+//! x is an [`Input`]. A power keeps the sign of what it raises; 0 raised to a negative power is 0 (no input, no
+//! output), so no input can make a number that is not finite.
 
 use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;

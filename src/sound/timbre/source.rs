@@ -72,7 +72,7 @@ pub enum Source {
     String(Strung),
     /// One mass on one spring: f = √(k/m) / 2π.
     MassSpring(MassSpring),
-    /// Partials drawn by chance from stated distributions: what has too many to be told apart.
+    /// Random partials from stated distributions, for bodies with too many to distinguish.
     Random(Drawn),
     /// What the body's own dimensions say: a sheet is a plate, what is long a tube or a bar.
     Mesh(Mesh),

@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 use soffio_detector::BlowDetector;
-use soffio_devices::audio::{LOUDEST, Words};
+use soffio_devices::audio::{LOUDEST, Utterance};
 use soffio_kiosk::pages::read_aloud::{ReadAloud, keeps_reading};
 use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
 use soffio_kiosk::pages::ui_strings::TextId;
@@ -67,7 +67,7 @@ fn before(program: &Path) -> (Before, ReadAloud) {
 }
 
 /// What is asked for is read, and handed on once.
-fn read(visitor: &mut Before, aloud: &mut ReadAloud) -> Words {
+fn read(visitor: &mut Before, aloud: &mut ReadAloud) -> Utterance {
     visitor.look_with(|scene| aloud.start_requested(scene, RATE));
     assert!(aloud.is_on(), "it is being made");
     wait("the words", || aloud.update(false))
@@ -204,7 +204,7 @@ fn system() -> Option<SpeechSynthesizer> {
 }
 
 /// What it says of the fish, in English.
-fn speech(speaker: &SpeechSynthesizer) -> Words {
+fn speech(speaker: &SpeechSynthesizer) -> Utterance {
     let label = load("steel-fish").labels.get("en").expect("a label").clone();
     let making = speaker.start(vec![(format!("{}. {}", label.alt, label.body), "en".into())], RATE);
     wait("the words", || making.poll()).expect("it speaks")

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use soffio_detector::generate::{self, BreathShape};
 use soffio_detector::{BlowEstimate, Reason};
-use soffio_devices::audio::{Heard, input};
+use soffio_devices::audio::{MicrophoneSamples, input};
 use soffio_exhibit::{self as exhibit, AttractAction, Exhibit};
 use soffio_kiosk::live::microphone::MicrophoneHealth;
 use soffio_kiosk::step::controls::Controls;
@@ -130,7 +130,7 @@ fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
     let (mut feed, mut mix) = (WavFeed::from(&recording), WavFeed::new(recording.samples.clone(), RATE));
     let (mut recorder, mut ears) = input::open(RATE, 2, [1, 2]);
     let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
-    let (mut heard, mut fastest, mut steps) = (Heard::default(), 0.0_f64, 0);
+    let (mut heard, mut fastest, mut steps) = (MicrophoneSamples::default(), 0.0_f64, 0);
     for block in frames.chunks_exact(2 * RATE as usize / 240) {
         recorder.record(block);
         heard.clear();
@@ -150,7 +150,7 @@ fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
 #[test]
 fn what_was_heard_is_shared_among_steps_without_a_gap() {
     let count = |n: u16| (0..n).map(f32::from).collect::<Vec<_>>();
-    let heard = Heard { samples: count(1003), second: count(1003), reference: count(1003) };
+    let heard = MicrophoneSamples { samples: count(1003), second: count(1003), reference: count(1003) };
     for n in [1, 2, 5, 7] {
         let shares: Vec<Microphone> = (0..n).map(|i| heard.share(i, n, RATE)).collect();
         let joined = |part: fn(&Microphone) -> Vec<f32>| shares.iter().flat_map(part).collect::<Vec<_>>();
@@ -158,7 +158,7 @@ fn what_was_heard_is_shared_among_steps_without_a_gap() {
         assert_eq!(joined(|m| m.second.expect("two capsules").to_vec()), heard.second);
         assert_eq!(joined(|m| m.reference.to_vec()), heard.reference);
     }
-    let one = Heard { second: Vec::new(), ..heard };
+    let one = MicrophoneSamples { second: Vec::new(), ..heard };
     assert!(one.share(0, 3, RATE).second.is_none());
 }
 

@@ -1,5 +1,5 @@
 //! Wind on whole exhibits: what a visitor's breath does to a sculpture.
 
 mod aim;
-mod calm;
+mod idle_damping;
 mod visits;

@@ -77,7 +77,7 @@ fn moved_by(exhibit: &Arc<Exhibit>, pointer: Option<[f64; 2]>, speed: f64) -> Ve
 }
 
 #[test]
-fn a_childs_breath_is_seen_within_a_second() {
+fn a_childs_breath_moves_the_picture_within_a_second() {
     /// On the glass, mm.
     const SEEN: f64 = 15.0;
     /// Of a work with many plates these are tried: first, last and some between.
@@ -104,7 +104,7 @@ fn a_childs_breath_is_seen_within_a_second() {
 }
 
 #[test]
-fn the_rooms_air_keeps_it_alive() {
+fn ambient_wind_keeps_an_exhibit_moving() {
     /// Way of a plate on the glass within half a minute, mm: it stirs, and does not dance.
     const ALIVE: std::ops::Range<f64> = 5.0..300.0;
     let mut simulation = Simulation::new(steel_fish(), Settings::default());
@@ -197,7 +197,7 @@ const SHUFFLED: std::ops::Range<f64> = 0.7..1.4;
 const SHUFFLED_FEW: std::ops::Range<f64> = 0.4..2.5;
 
 #[test]
-fn what_moves_is_the_visitors_doing() {
+fn motion_is_the_effect_of_the_visitor() {
     let (own, shuffled) = medians(6, (8.0, 12.0));
     assert!(own >= CONTINGENT, "{own}");
     assert!(SHUFFLED_FEW.contains(&shuffled), "{shuffled}");
@@ -205,7 +205,7 @@ fn what_moves_is_the_visitors_doing() {
 
 #[test]
 #[ignore = "200 visits: part `visits` of tests/check.sh --long"]
-fn what_moves_is_the_visitors_doing_in_two_hundred_visits() {
+fn motion_is_the_effect_of_the_visitor_in_two_hundred_visits() {
     let (own, shuffled) = medians(200, (15.0, 20.0));
     assert!(own >= CONTINGENT, "{own}");
     assert!(SHUFFLED.contains(&shuffled), "{shuffled}");

@@ -6,12 +6,12 @@ use std::time::Instant;
 use super::super::live_state::RunStatus;
 use super::playback::Playback;
 use crate::venue::self_test_run::{SelfTestAction, SelfTestRun};
-use soffio_devices::audio::Heard;
+use soffio_devices::audio::MicrophoneSamples;
 
 /// Input of the microphone.
 pub(super) struct MicrophoneInput {
     /// Samples since the last steps.
-    pub heard: Heard,
+    pub heard: MicrophoneSamples,
     /// Has the visitor switched the microphone off?
     pub ignore_microphone: bool,
     /// Is the venue closed?
@@ -24,7 +24,7 @@ impl MicrophoneInput {
     /// Without any samples.
     pub(super) fn new(closed: bool) -> Self {
         Self {
-            heard: Heard::default(),
+            heard: MicrophoneSamples::default(),
             ignore_microphone: false,
             closed,
             self_test: SelfTestRun::default(),

@@ -57,18 +57,18 @@ fn table(random: &mut Random, most: usize) -> Vec<Partial> {
 /// Bank, samples that are ready, and how far it has come: what the synth does around a bank.
 struct Player {
     bank: Bank,
-    ahead: Vec<f32>,
+    look_ahead: Vec<f32>,
     at: usize,
 }
 
 impl Player {
     fn new(partials: &[Partial], level: Level) -> Self {
         let bank = Bank::new(partials, RATE, level);
-        Self { bank, ahead: vec![0.0; Bank::reach(0.02, RATE)], at: BLOCK }
+        Self { bank, look_ahead: vec![0.0; Bank::look_ahead_len(0.02, RATE)], at: BLOCK }
     }
 
     fn strike(&mut self, amplitudes: &[f64], duration: f64) {
-        assert!(self.bank.strike(|i| amplitudes[i], duration, self.at, &mut self.ahead).is_some());
+        assert!(self.bank.strike(|i| amplitudes[i], duration, self.at, &mut self.look_ahead).is_some());
     }
 
     fn skip(&mut self, blocks: usize) {
@@ -79,15 +79,15 @@ impl Player {
 
     fn sample(&mut self) -> f32 {
         if self.at == BLOCK {
-            self.ahead.copy_within(BLOCK.., 0);
-            let end = self.ahead.len() - BLOCK;
-            self.ahead[end..].fill(0.0);
-            let block = self.ahead.first_chunk_mut().expect("room for a block");
+            self.look_ahead.copy_within(BLOCK.., 0);
+            let end = self.look_ahead.len() - BLOCK;
+            self.look_ahead[end..].fill(0.0);
+            let block = self.look_ahead.first_chunk_mut().expect("room for a block");
             self.bank.render(None, block);
             self.at = 0;
         }
         self.at += 1;
-        self.ahead[self.at - 1]
+        self.look_ahead[self.at - 1]
     }
 }
 
@@ -274,12 +274,12 @@ fn a_force_at_audio_rate_drives_the_partials_exactly() {
         let mut classes = Classes::default();
         for level in levels() {
             let mut bank = Bank::new(&partials, RATE, level);
-            bank.push_at(|i| gains[i][0]);
+            bank.set_drive_point(|i| gains[i][0]);
             let mut out = vec![0.0f32; force.len()];
             let parts = out.as_chunks_mut::<BLOCK>().0.iter_mut().zip(force.as_chunks::<BLOCK>().0);
             for (i, (out, force)) in parts.enumerate() {
                 if i > 0 && place(i) != place(i - 1) {
-                    bank.push_towards(|k| gains[k][place(i)]);
+                    bank.glide_drive_point(|k| gains[k][place(i)]);
                 }
                 // Half of the time it is left to itself.
                 bank.render((i % 40 < 20).then_some(force), out);
@@ -408,7 +408,7 @@ fn the_quietest_partials_leave_first_and_fade() {
     let (group, amplitude) = player.bank.quietest().expect("all ring");
     assert_eq!(group, 2);
     assert!((amplitude / 4e-3 - 1.0).abs() < 0.1, "{amplitude}");
-    assert_eq!(player.bank.leave(2), GROUP);
+    assert_eq!(player.bank.release(2), GROUP);
     player.skip(2);
     assert_eq!(player.bank.ringing(), 64 - GROUP);
 }
@@ -417,7 +417,7 @@ fn the_quietest_partials_leave_first_and_fade() {
 fn hits_with_absurd_numbers_change_nothing() {
     let mut player = Player::new(&[Partial { frequency: 500.0, decay: 2.0 }], Level::new());
     for bad in [f64::NAN, f64::INFINITY, -f64::INFINITY, 1e9] {
-        assert_eq!(player.bank.strike(|_| bad, 1e-3, 5, &mut player.ahead), None);
+        assert_eq!(player.bank.strike(|_| bad, 1e-3, 5, &mut player.look_ahead), None);
     }
     assert!((0..1000).all(|_| player.sample() == 0.0));
 }

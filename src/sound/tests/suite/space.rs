@@ -9,10 +9,10 @@ const RATE: u32 = 48_000;
 
 /// The room's answer to an impulse on both sides (1 and 0 where only the left one is asked for).
 fn response(spec: &ReverbSpec, impulse: [f32; 2], seconds: f64) -> [Vec<f64>; 2] {
-    let mut room = Reverb::new(spec, f64::from(RATE)).expect("it decays");
+    let mut reverb = Reverb::new(spec, f64::from(RATE)).expect("it decays");
     let mut frames = vec![[0.0; 2]; (seconds * f64::from(RATE)) as usize];
     frames[0] = impulse;
-    room.answer(&mut frames);
+    reverb.process(&mut frames);
     [0, 1].map(|side| frames.iter().map(|frame| f64::from(frame[side])).collect())
 }
 
@@ -147,9 +147,9 @@ fn echoes_are_soon_as_dense_as_noise() {
     const DENSE: f64 = 0.85;
     let [left, right] = response(&ReverbSpec::GALLERY, [1.0, 1.0], 1.0);
     for side in [&left, &right] {
-        let course: Vec<String> =
+        let level_history: Vec<String> =
             (1..12).map(|i| format!("{:.2}", echo_density(side, 0.02 * f64::from(i) + 0.01))).collect();
-        println!("echo density every 20 ms from 30 ms on: {}", course.join(" "));
+        println!("echo density every 20 ms from 30 ms on: {}", level_history.join(" "));
         for i in 0..20 {
             let at = 0.12 + 0.02 * f64::from(i);
             assert!(echo_density(side, at) > DENSE, "at {at} s: {}", echo_density(side, at));
@@ -158,7 +158,7 @@ fn echoes_are_soon_as_dense_as_noise() {
 }
 
 /// Geometric over arithmetic mean of a power spectrum, each tenth of an octave by itself so that its slope does not count:
-/// e^−γ = 0.561 for noise, less for what rings at single frequencies. Between 300 Hz and 10 kHz.
+/// e^−γ = 0.561 for noise, less for sound at single frequencies. Between 300 Hz and 10 kHz.
 fn flatness(samples: &[f64]) -> f64 {
     let bins = spectrum(samples);
     let bin = |frequency: f64| (frequency * samples.len() as f64 / f64::from(RATE)) as usize;
@@ -210,7 +210,7 @@ fn the_two_sides_are_not_alike() {
 #[test]
 fn it_stays_finite_forgets_and_sleeps() {
     let spec = ReverbSpec { level_db: 0.0, t60: [2.0; 7] };
-    let mut room = Reverb::new(&spec, f64::from(RATE)).expect("it decays");
+    let mut reverb = Reverb::new(&spec, f64::from(RATE)).expect("it decays");
     let mut random = Random::new(3);
     // Far beyond full scale, and what a broken voice might say.
     let said = |n: u32| match n % 1000 {
@@ -220,19 +220,19 @@ fn it_stays_finite_forgets_and_sleeps() {
         _ => 10.0 * random.signed() as f32,
     };
     let mut frames: Vec<[f32; 2]> = (0..RATE).map(said).map(|x| [x, -x]).collect();
-    room.answer(&mut frames);
+    reverb.process(&mut frames);
     assert!(frames.as_flattened().iter().all(|y| y.is_finite()));
     assert!(frames.as_flattened().iter().any(|y| y.abs() > 1.0));
     // 240 dB and more: then exactly nothing, at once again when nothing comes, and as new when something does.
     let mut silence = vec![[0.0; 2]; RATE as usize * 15];
-    room.answer(&mut silence);
+    reverb.process(&mut silence);
     let silent = silence.iter().filter(|frame| **frame == [0.0; 2]).count();
     assert!(silent > 3 * RATE as usize, "it never became silent");
     let mut new = Reverb::new(&spec, f64::from(RATE)).expect("it decays");
-    let energy = [&mut room, &mut new].map(|room| {
+    let energy = [&mut reverb, &mut new].map(|reverb| {
         let mut frames = vec![[0.0; 2]; RATE as usize];
         frames[0] = [1.0, 0.0];
-        room.answer(&mut frames);
+        reverb.process(&mut frames);
         frames.as_flattened().iter().map(|y| f64::from(y * y)).sum::<f64>()
     });
     assert!(energy[0] == energy[1] && energy[0] > 0.0, "{energy:?}");
@@ -286,13 +286,13 @@ fn it_does_not_matter_how_frames_are_cut() {
     }
     for rate in [48_000.0, 8_000.0] {
         let [mut whole, mut cut] = [frames.clone(), frames.clone()];
-        Reverb::new(&spec, rate).expect("it decays").answer(&mut whole);
-        let mut room = Reverb::new(&spec, rate).expect("it decays");
+        Reverb::new(&spec, rate).expect("it decays").process(&mut whole);
+        let mut reverb = Reverb::new(&spec, rate).expect("it decays");
         let mut rest = &mut cut[..];
         while !rest.is_empty() {
             let n = (1 + (random.unit() * 40.0) as usize).min(rest.len());
             let (now, later) = rest.split_at_mut(n);
-            room.answer(now);
+            reverb.process(now);
             rest = later;
         }
         let bits = |frames: &[[f32; 2]]| frames.as_flattened().iter().map(|y| y.to_bits()).collect::<Vec<_>>();

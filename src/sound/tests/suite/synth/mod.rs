@@ -66,7 +66,7 @@ fn rms(samples: &[f32]) -> f64 {
 fn amplitude(samples: &[f64], frequency: f64) -> f64 {
     let (mut re, mut im) = (0.0, 0.0);
     for (t, x) in samples.iter().enumerate() {
-        // Hann window: what stands a few bins off does not leak in.
+        // Hann window: distant bins do not leak in.
         let window = 1.0 - soffio_math::cos(2.0 * PI * t as f64 / samples.len() as f64);
         let (s, c) = soffio_math::sincos(2.0 * PI * frequency * t as f64 / f64::from(RATE));
         re += window * x * c;
@@ -276,7 +276,7 @@ fn output_does_not_depend_on_how_it_is_cut_into_blocks() {
         let mut pending = commands.iter().peekable();
         let mut out = Vec::with_capacity(whole.len());
         while out.len() < whole.len() {
-            // Told as late as can be: only what falls into this block.
+            // As late as possible: only commands of this block.
             let frames = block.min((whole.len() - out.len()) / 2);
             while let Some(c) = pending.next_if(|c| c.sample() < synth.position() + frames as u64) {
                 synth.command(*c);
@@ -472,7 +472,7 @@ fn a_force_of_the_timbres_own_drives_the_body_in_any_blocks() {
     let play = |block: usize| {
         let mut synth = Synth::with_preset(RATE, &driven(), &spec("plate"), 1).expect("compiles");
         synth.set_dry(true);
-        // No impulse: what is heard is the force's.
+        // No impulse: the sound is that of the force.
         synth.command(SoundCommand::Strike(strike(77, 0.0)));
         synth.command(SoundCommand::Strike(strike(3_333, 0.0)));
         let mut out = Vec::new();

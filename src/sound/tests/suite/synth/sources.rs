@@ -122,7 +122,7 @@ fn a_meshs_dimensions_choose_the_theory() {
         modes(lines, &spec)[0].frequency
     };
     let mesh = "from = \"mesh\"\npartials = 4";
-    // A steel tube of 40 cm, 20 mm by 1 mm, told by its mass alone.
+    // A steel tube of 40 cm, 20 mm by 1 mm, given by its mass alone.
     let mass = 7850.0 * 0.4 * PI / 4.0 * (0.02 * 0.02 - 0.018 * 0.018);
     let tube = body("from = \"tube\"\nouter = 0.02\ninner = 0.018", [0.2, 0.01], 0.02, mass);
     assert!((body(mesh, [0.2, 0.01], 0.02, mass) / tube - 1.0).abs() < 1e-9);

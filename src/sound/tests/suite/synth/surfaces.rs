@@ -105,7 +105,7 @@ fn the_level_follows_the_force_by_its_power() {
 
 #[test]
 fn surfaces_differ_and_go_on_without_a_seam_and_without_coming_back() {
-    // A line of 0.33 m: what is heard a turn of it later is another piece. Chance alone gives some hundredths.
+    // A line of 0.33 m: the sound a turn later is another piece. Chance alone gives some hundredths.
     const ALIKE: f64 = 0.3;
     // The largest step between samples is no larger over many pieces than within one.
     for kind in ["wood", "marble", "rough"] {
@@ -117,7 +117,7 @@ fn surfaces_differ_and_go_on_without_a_seam_and_without_coming_back() {
         assert!(out.iter().any(|x| x.abs() > 0.02), "{kind}");
         let product =
             |lag: usize| out.iter().zip(&out[lag..]).map(|(a, b)| a * b).sum::<f64>() / (out.len() - lag) as f64;
-        let near = (1..=18).flat_map(|turns| (0..5).map(move |i| turns * turn + turns * i / 4));
+        let near = (1..=18).flat_map(|repeats| (0..5).map(move |i| repeats * turn + repeats * i / 4));
         let alike = near.map(|lag| (product(lag) / product(0)).abs()).fold(0.0, f64::max);
         println!("{kind}: alike by {alike:.3} over 6 m");
         assert!(alike < ALIKE, "{kind}: {alike}");

@@ -103,7 +103,7 @@ fn hostile_files_give_errors() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(150))]
 
-    /// Any shipped preset with bytes cut out, doubled or replaced is read or refused, and what is read plays finite numbers.
+    /// Any shipped preset with bytes cut out, doubled or replaced is read or refused, and plays finite numbers.
     #[test]
     fn damaged_presets_never_panic(which in 0usize..19, from in 0usize..3000, length in 0usize..40, with in "[-0-9a-z.=\"\\[\\]{}\n]{0,6}") {
         let name = timbre::names().nth(which).expect("nineteen");

@@ -1,8 +1,8 @@
 //! Strings and the single spring.
 //!
 //! **String** of length L: f_n = n v/2L √(1 + B n²); v = √(T L/m) of a stretched string, √(E/ρ) of longitudinal waves.
-//! Stiffness gives B = π³ E d⁴/64 T L² for a string of diameter d (Fletcher, JASA 36, 1964). Its own sound is faint; what
-//! is heard is the bridge, which feels the force T nπ/L q_n: the same for every partial of a string that was struck.
+//! Stiffness gives B = π³ E d⁴/64 T L² for a string of diameter d (Fletcher, JASA 36, 1964). Its own sound is faint; the
+//! audible part is the bridge, on which the force T nπ/L q_n acts: equal for every partial of a struck string.
 //!
 //! **Spring**: f = √(k/m) / 2π.
 

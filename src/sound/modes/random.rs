@@ -1,4 +1,4 @@
-//! Partials drawn by chance, for bodies with too many of them to be told apart: wood, drums, sheet metal.
+//! Statistical modes: random partials for bodies with too many to distinguish, such as wood, drums and sheet metal.
 //!
 //! One frequency falls evenly into each of N equal parts of the band (in hertz or in octaves). The decay is
 //! c = c₀ + c₂ ω², through the two T60 given, each multiplied by s^u with u even in ±1. Levels fall by the tilt and are

@@ -1,11 +1,11 @@
-//! A second output, for a hearing loop or headphones: what the loudspeaker plays, in mono, at a volume of its own.
+//! Hearing loop: a second output for an induction loop or headphones, in mono, with its own volume.
 //!
-//! The loudspeaker's callback gives what it plays, before the visitor's volume, into a ring; this one takes it out at its own
-//! clock (`reference` says how two clocks are kept together). Each is a stream of its own: where this one stands still the
-//! ring is full and the loudspeaker goes on, and where the loudspeaker stands still this one is silent.
+//! The output's callback writes its signal, before the visitor's volume, into a ring; this callback reads it at its own clock
+//! (see `reference` for the clock drift). The streams are independent: if this one stalls, the ring is full and the output
+//! continues; if the output stalls, this one is silent.
 //!
-//! A mute, a closed house and an attract mode without a sound are obeyed here too: what comes through the ring then is
-//! silence. What the visitor does to the volume is not: who wears a hearing aid has one there.
+//! Mute, closing hours and a silent attract mode apply here too. The visitor's volume does not, because hearing aids have their
+//! own.
 
 use cpal::{FromSample, SizedSample};
 use rtrb::{Consumer, Producer, RingBuffer};
@@ -19,20 +19,20 @@ const WAITS: f64 = 0.06;
 const ROOM: f64 = 1.0;
 /// Frames at once, however long the device's blocks are.
 const CHUNK: usize = 256;
-/// Time constant of what fades when nothing comes, and comes back, s: no click.
+/// Time constant of the fades when samples run out or return, s: no click.
 const GLIDE: f64 = 0.005;
 
 /// The loudspeaker's end.
 pub struct Tail(pub(super) Producer<f32>);
 
 /// The real-time end: all that the second device's callback touches.
-pub struct Hearing {
+pub struct HearingLoop {
     from: Consumer<f32>,
     from_rate: u32,
     rate: u32,
     channels: usize,
     tap: ReferenceTap,
-    /// Enough has come to play it.
+    /// Whether enough samples have arrived.
     flows: bool,
     samples: Vec<f32>,
     /// What was played last, and how far it is faded in.
@@ -43,9 +43,9 @@ pub struct Hearing {
 }
 
 /// Both ends, between devices of these rates, Hz; `gain` is linear.
-pub fn open(from_rate: u32, rate: u32, channels: usize, gain: f32) -> (Tail, Hearing) {
+pub fn open(from_rate: u32, rate: u32, channels: usize, gain: f32) -> (Tail, HearingLoop) {
     let (to, from) = RingBuffer::new((ROOM * f64::from(from_rate)) as usize);
-    let hearing = Hearing {
+    let hearing = HearingLoop {
         from,
         from_rate,
         rate,
@@ -61,7 +61,7 @@ pub fn open(from_rate: u32, rate: u32, channels: usize, gain: f32) -> (Tail, Hea
     (Tail(to), hearing)
 }
 
-impl Hearing {
+impl HearingLoop {
     /// The callback's whole body. Real-time: bounded, no allocation, no lock, no system call.
     pub fn play<T: SizedSample + FromSample<f32>>(&mut self, data: &mut [T]) {
         for out in data.chunks_mut(CHUNK * self.channels) {

@@ -1,4 +1,4 @@
-//! How the kiosk sounds at night, or beside a quiet gallery: lower, closer together, and softer at the top.
+//! Night mode: a downward compressor and a treble shelf for nights and quiet galleries.
 //!
 //! ```text
 //! L = mean square, 5 ms up and 150 ms down        G = LEVEL − (1 − 1/RATIO) max(0, L − THRESHOLD)   dB
@@ -19,19 +19,28 @@ pub const LEVEL: f64 = -8.0;
 pub const THRESHOLD: f64 = -36.0;
 /// Of so many dB above the threshold one is left.
 pub const RATIO: f64 = 3.0;
-/// What lies above this, Hz, is softer by [`SOFTER`] dB.
-pub const CORNER: f64 = 2500.0;
+/// Corner of the shelf, Hz, above which the level changes by [`SHELF_DB`].
+pub const SHELF_CORNER: f64 = 2500.0;
 /// dB.
-pub const SOFTER: f64 = -9.0;
+pub const SHELF_DB: f64 = -9.0;
 /// From day to night, s.
 pub const GLIDE: f64 = 2.0;
-/// The level follows what rises and what falls in these times, s.
-const FOLLOW: (f64, f64) = (0.005, 0.15);
+/// Attack and release of the level, s.
+const ATTACK_RELEASE: (f64, f64) = (0.005, 0.15);
 /// Frames from one gain to the next.
 const STRIDE: u32 = 32;
 
-pub(super) struct Night {
-    wanted: bool,
+/// How night mode is turned on or off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Transition {
+    /// Over [`GLIDE`].
+    Fade,
+    /// At once: nothing has been played yet.
+    Immediate,
+}
+
+pub(super) struct NightMode {
+    enabled: bool,
     /// 0 day … 1 night.
     amount: f64,
     /// Of the amount, once a stride.
@@ -39,28 +48,28 @@ pub(super) struct Night {
     /// First-order shelf b0, b1, a1, and its state on either side.
     shelf: [f64; 3],
     states: [f64; 2],
-    follow: (f64, f64),
+    attack_release: (f64, f64),
     square: f64,
     gain: f64,
     step: f64,
     frame: u32,
 }
 
-impl Night {
+impl NightMode {
     pub fn new(sample_rate: f64) -> Self {
-        let rise = db_to_amplitude(SOFTER);
-        let (s, c) = sincos(PI * CORNER / sample_rate);
-        // As in `room/absorption.rs`, of first order: (h s + √h w)/(s + √h w).
+        let rise = db_to_amplitude(SHELF_DB);
+        let (s, c) = sincos(PI * SHELF_CORNER / sample_rate);
+        // As in `reverb/absorption.rs`, of first order: (h s + √h w)/(s + √h w).
         let w = s / c * rise.sqrt();
         let norm = 1.0 / (1.0 + w);
         let share = |time: f64| 1.0 - exp(-1.0 / (time * sample_rate));
         Self {
-            wanted: false,
+            enabled: false,
             amount: 0.0,
             glide: f64::from(STRIDE) / (GLIDE * sample_rate),
             shelf: [(rise + w) * norm, (w - rise) * norm, (w - 1.0) * norm],
             states: [0.0; 2],
-            follow: (share(FOLLOW.0), share(FOLLOW.1)),
+            attack_release: (share(ATTACK_RELEASE.0), share(ATTACK_RELEASE.1)),
             square: 0.0,
             gain: 1.0,
             step: 0.0,
@@ -68,10 +77,10 @@ impl Night {
         }
     }
 
-    /// From now on; it glides there. Before the first frame it is so at once.
-    pub fn set(&mut self, night: bool, at_once: bool) {
-        self.wanted = night;
-        if at_once {
+    /// Turns night mode on or off.
+    pub fn set(&mut self, night: bool, transition: Transition) {
+        self.enabled = night;
+        if transition == Transition::Immediate {
             self.amount = f64::from(u8::from(night));
             self.gain = db_to_amplitude(self.amount * LEVEL);
         }
@@ -81,7 +90,7 @@ impl Night {
     pub fn process(&mut self, frames: &mut [[f32; 2]]) {
         for frame in frames {
             // By day for as long as nobody asks: all frames are what they are.
-            if self.amount == 0.0 && !self.wanted {
+            if self.amount == 0.0 && !self.enabled {
                 return;
             }
             *frame = self.process_one(*frame);
@@ -91,14 +100,14 @@ impl Night {
     fn process_one(&mut self, frame: [f32; 2]) -> [f32; 2] {
         let [l, r] = frame.map(f64::from);
         let square = 0.5 * (l * l + r * r);
-        let (up, down) = self.follow;
+        let (up, down) = self.attack_release;
         self.square += (square - self.square) * if square > self.square { up } else { down };
         if self.frame == 0 {
-            let step = if self.wanted { self.glide } else { -self.glide };
+            let step = if self.enabled { self.glide } else { -self.glide };
             self.amount = (self.amount + step).clamp(0.0, 1.0);
             let above = (0.5 * amplitude_to_db(self.square.max(1e-20)) - THRESHOLD).max(0.0);
-            let wanted = db_to_amplitude(self.amount * (LEVEL - (1.0 - 1.0 / RATIO) * above));
-            self.step = (wanted - self.gain) / f64::from(STRIDE);
+            let enabled = db_to_amplitude(self.amount * (LEVEL - (1.0 - 1.0 / RATIO) * above));
+            self.step = (enabled - self.gain) / f64::from(STRIDE);
         }
         self.frame = (self.frame + 1) % STRIDE;
         self.gain += self.step;
@@ -107,7 +116,7 @@ impl Night {
         for (x, state) in out.iter_mut().zip(&mut self.states) {
             let y = b0 * *x + *state;
             *state = b1 * *x - a1 * y;
-            // Far below what is heard: numbers that make processors slow.
+            // Far inaudible: denormal numbers make processors slow.
             if state.abs() < 1e-20 {
                 *state = 0.0;
             }

@@ -1,49 +1,49 @@
-//! What plays the voices that go on: the wind and what slides, as commanded and as they sound now.
+//! Control signals of sustained voices: wind and sliding contacts, smoothed from their commands.
 
-use super::graph::CONTROL;
+use super::graph::CONTROL_PERIOD;
 use super::timbre::{Inputs, Player};
 use super::{Slide, SoundCommand, WindExposure, WindSound};
 use soffio_math::{PI, exp};
 
-/// Time constant with which the sound of the wind follows its commands, s.
+/// Time constant of the smoothed wind, s.
 const WIND_GLIDE: f64 = 0.05;
-/// Time constant with which the sound of a slide follows its commands, s: one simulation step.
+/// Time constant of a smoothed slide, s: one simulation step.
 const SLIDE_GLIDE: f64 = 0.004;
-/// Surfaces have parted below this, N.
-const PARTED: f64 = 1e-5;
-/// A wind that dies away is over below this, m/s.
-const CALM: f64 = 1e-3;
-/// Nobody's ear comes nearer than this, m.
-pub(super) const NEAREST: f32 = 0.1;
+/// A fading slide ends below this force, N.
+const LEAST_FORCE: f64 = 1e-5;
+/// A fading wind ends below this speed, m/s.
+const LEAST_WIND: f64 = 1e-3;
+/// Least distance of a listener, m.
+pub(super) const MIN_DISTANCE: f32 = 0.1;
 
 /// Wind and slides of one exhibit.
-pub(super) struct Motion {
-    /// Of the way to what they glide to, wind and what slides go so much from one point of the control grid to the next.
+pub(super) struct SustainedControls {
+    /// One-pole coefficients of wind and slides per grid point.
     shares: [f64; 2],
-    wind: Wind,
-    /// Whether there was no wind before the last point of the grid.
+    wind: WindState,
+    /// Whether the air was still before the last grid point.
     calm_before: bool,
     /// One for each instrument.
-    sliders: Vec<Slider>,
-    /// Part of the wind that each instrument hears: commanded, and now.
-    across: Vec<[f64; 2]>,
+    slides: Vec<SlideState>,
+    /// Wind exposure of each instrument: target and present.
+    exposures: Vec<[f64; 2]>,
 }
 
-/// The motion as one instrument hears it.
-pub(super) struct Heard {
+/// Control signals of one instrument.
+pub(super) struct ControlValues {
     pub inputs: Inputs,
     /// −1 left … 1 right.
     pub pan: f64,
     /// From the listener, m.
     pub distance: f32,
-    /// Whether nothing moved before this point of the grid, and at it.
+    /// Whether nothing moved before this grid point, and at it.
     pub still_before: bool,
     pub still: bool,
 }
 
-/// The wind as commanded, and as it sounds now.
+/// Commanded and smoothed wind.
 #[derive(Default)]
-struct Wind {
+struct WindState {
     target: WindSound,
     speed: f64,
     gust: f64,
@@ -51,37 +51,37 @@ struct Wind {
     pan: f64,
 }
 
-/// What slides over one instrument, as commanded and as it sounds now.
+/// Commanded and smoothed sliding contact of one instrument.
 #[derive(Clone, Copy, Default)]
-struct Slider {
+struct SlideState {
     target: Slide,
     speed: f64,
     force: f64,
     position: [f64; 2],
 }
 
-impl Motion {
-    /// Still air, and nothing that slides, for so many instruments.
+impl SustainedControls {
+    /// Still air and no slides, for this number of instruments.
     pub fn new(instruments: usize, sample_rate: f64) -> Self {
         Self {
-            shares: [WIND_GLIDE, SLIDE_GLIDE].map(|glide| 1.0 - exp(-(CONTROL as f64) / (glide * sample_rate))),
-            wind: Wind::default(),
+            shares: [WIND_GLIDE, SLIDE_GLIDE].map(|glide| 1.0 - exp(-(CONTROL_PERIOD as f64) / (glide * sample_rate))),
+            wind: WindState::default(),
             calm_before: true,
-            sliders: vec![Slider::default(); instruments],
-            across: vec![[1.0; 2]; instruments],
+            slides: vec![SlideState::default(); instruments],
+            exposures: vec![[1.0; 2]; instruments],
         }
     }
 
-    /// What wind and slides glide to from now on. False where there is no such instrument.
+    /// Sets the target of a command. False if there is no such instrument.
     pub fn command(&mut self, command: &SoundCommand) -> bool {
         match *command {
             SoundCommand::Slide(slide) => {
-                let slider = self.sliders.get_mut(usize::from(slide.instrument));
+                let slider = self.slides.get_mut(usize::from(slide.instrument));
                 slider.map(|slider| slider.target = slide).is_some()
             }
             SoundCommand::WindExposure(WindExposure { instrument, share, .. }) => {
-                let across = self.across.get_mut(usize::from(instrument));
-                across.map(|across| across[0] = f64::from(share).clamp(0.0, 1.0)).is_some()
+                let exposures = self.exposures.get_mut(usize::from(instrument));
+                exposures.map(|exposures| exposures[0] = f64::from(share).clamp(0.0, 1.0)).is_some()
             }
             SoundCommand::Wind(wind) => {
                 self.wind.target = wind;
@@ -91,22 +91,22 @@ impl Motion {
         }
     }
 
-    /// Lets wind and slides die away.
+    /// Sets all targets to 0.
     pub fn silence(&mut self) {
         self.wind.target.speed = 0.0;
-        self.sliders.iter_mut().for_each(|slider| slider.target.force = 0.0);
+        self.slides.iter_mut().for_each(|slider| slider.target.force = 0.0);
     }
 
-    /// A point of the control grid: the wind goes on; what slides does so as its instrument hears it.
+    /// Advances the wind to the next grid point; slides advance in [`Self::values`].
     pub fn glide(&mut self) {
         let share = self.shares[0];
         self.calm_before = self.wind.speed == 0.0;
-        self.across.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
+        self.exposures.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
         self.wind.glide(share);
     }
 
-    /// The motion as an instrument that `player` plays hears it at this point of the grid. To be asked once a point.
-    pub fn heard(&mut self, instrument: usize, player: Player) -> Heard {
+    /// Control signals of an instrument with this player at this grid point. To be called once a grid point.
+    pub fn values(&mut self, instrument: usize, player: Player) -> ControlValues {
         let air = Inputs {
             wind_speed: self.wind.speed,
             wind_direction: self.wind.direction,
@@ -114,11 +114,11 @@ impl Motion {
             ..Inputs::default()
         };
         if player == Player::Slide {
-            let slider = &mut self.sliders[instrument];
+            let slider = &mut self.slides[instrument];
             let parted = slider.force == 0.0;
             slider.glide(self.shares[1]);
             let slide = slider.target;
-            return Heard {
+            return ControlValues {
                 inputs: Inputs {
                     slip_speed: slider.speed,
                     normal_force: slider.force,
@@ -126,13 +126,13 @@ impl Motion {
                     ..air
                 },
                 pan: f64::from(slide.pan),
-                distance: slide.distance.max(NEAREST),
+                distance: slide.distance.max(MIN_DISTANCE),
                 still_before: parted,
                 still: slider.force == 0.0,
             };
         }
-        Heard {
-            inputs: Inputs { wind_speed: self.wind.speed * self.across[instrument][1], ..air },
+        ControlValues {
+            inputs: Inputs { wind_speed: self.wind.speed * self.exposures[instrument][1], ..air },
             pan: self.wind.pan,
             distance: 1.0,
             still_before: self.calm_before,
@@ -141,7 +141,7 @@ impl Motion {
     }
 }
 
-impl Wind {
+impl WindState {
     /// One step of a one-pole glide towards the commanded wind.
     fn glide(&mut self, share: f64) {
         let target = f64::from(self.target.speed).max(0.0);
@@ -149,29 +149,29 @@ impl Wind {
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
         if target > 0.0 {
-            // The shorter way round; what dies away keeps its direction.
+            // The shorter way round; a fading wind keeps its direction.
             let turn = f64::from(self.target.direction) - self.direction;
             self.direction += (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) * share;
         }
-        if target == 0.0 && self.speed < CALM {
+        if target == 0.0 && self.speed < LEAST_WIND {
             self.speed = 0.0;
         }
     }
 }
 
-impl Slider {
+impl SlideState {
     /// One step of a one-pole glide towards the commanded slide.
     fn glide(&mut self, share: f64) {
         let target = f64::from(self.target.force).max(0.0);
         let position = self.target.position.map(|p| f64::from(p).clamp(-1.0, 1.0));
         if self.force == 0.0 {
-            // What begins to slide begins where it is.
+            // A new slide starts at its position.
             self.position = position;
         }
         (0..2).for_each(|k| self.position[k] += (position[k] - self.position[k]) * share);
         self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
         self.force += (target - self.force) * share;
-        if target == 0.0 && self.force < PARTED {
+        if target == 0.0 && self.force < LEAST_FORCE {
             self.force = 0.0;
         }
     }
