@@ -68,7 +68,7 @@ long() {
         case $part in
             soak-blow)  "$released" play steel-fish --script tests/long/hard-blows.jsonl --seconds 3600 ;;
             soak-still) "$released" play steel-fish --seconds 7200 ;;
-            visits)     ignored wind::visits::what_moves_is_the_visitors_doing_in_two_hundred_visits ;;
+            visits)     ignored wind::visits::motion_is_the_effect_of_the_visitor_in_two_hundred_visits ;;
             # Every shipped exhibit and language, on any Vulkan driver.
             contrast)   compiled test --quiet --test suite kiosk::contrast -- --include-ignored --nocapture ;;
             flashes)    compiled test --quiet --test suite kiosk::flashes -- --include-ignored --nocapture ;;
