@@ -168,7 +168,7 @@ fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Ar
     }))
 }
 
-/// What a run with a planned end has to say on stdout, for whoever planned it.
+/// Prints the report of a run with a planned end on stdout.
 fn summarize(report: &Report, planned: bool) -> Outcome {
     if planned {
         let said = writeln!(std::io::stdout(), "{}", serde_json::json!(report));

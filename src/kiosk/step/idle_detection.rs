@@ -1,9 +1,9 @@
 //! Idle detection: finds out whether the picture of an exhibit stands still, so that fewer frames are drawn
 //! (`window::idle_rendering`).
 //!
-//! [`IdleDetector`] sees every step. The exhibit is idle when for half a second all of this held: there was no breath, no grab,
-//! no shape animation and no bright dust; the camera did not move; and no body nor the aim ring moved by a quarter of a pixel
-//! of a large picture within a tenth of a second.
+//! [`IdleDetector`] sees every step. The exhibit is idle after half a second without breath, grab, shape animation, bright dust
+//! and camera motion. In that time no body and not the aim ring may move by a quarter of a pixel of a large picture within a
+//! tenth of a second.
 //!
 //! A point of a body at r from its node moves by at most |Δp| + r |Δφ|. Its motion in the picture is that divided by the height
 //! of the picture at its distance.

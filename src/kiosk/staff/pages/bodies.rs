@@ -8,7 +8,7 @@ use crate::pages::ui_strings::TextId;
 use crate::staff::panel_input::PanelInput;
 use soffio_simulation::STEPS_PER_SECOND;
 
-/// A joint that is farther open than this is told, m or rad.
+/// Joint error from which a joint is listed, m or rad.
 const OPEN: f64 = 1e-3;
 
 /// Headings of the table of bodies.

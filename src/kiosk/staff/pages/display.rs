@@ -6,7 +6,7 @@ use crate::pages::ui_strings::{TextId, UiStrings};
 
 /// Steps of grey.
 const STEPS: usize = 17;
-/// Levels near black and near white that a well set display tells apart.
+/// Levels near black and near white that a well adjusted display distinguishes.
 const NEAR: [u8; 5] = [2, 4, 8, 12, 16];
 
 /// One of them.

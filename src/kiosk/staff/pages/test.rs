@@ -11,7 +11,7 @@ use crate::staff::action::StaffAction;
 use crate::staff::panel_input::PanelInput;
 use crate::step::instruments::{Audition, AuditionTarget};
 
-/// The timbre that loudspeakers are told apart by, and the speed of its hit, m/s.
+/// Timbre of the loudspeaker test, and the speed of its hit, m/s.
 const CALL: (&str, f64) = ("wood", 1.0);
 /// Points of a finger's way that are kept.
 const TRAIL: usize = 200;
@@ -122,7 +122,7 @@ impl Test {
         });
     }
 
-    /// Draws what lies over the picture: rings round fingers, or a picture of its own over everything.
+    /// Draws rings around fingers over the picture, or a full-screen test picture.
     pub fn paint(&self, context: &egui::Context, texts: &UiStrings) {
         let picture = context.content_rect();
         let layer = LayerId::new(Order::Foreground, egui::Id::unique("test"));
