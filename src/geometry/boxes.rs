@@ -1,8 +1,8 @@
 //! Which of many boxes may rays meet? A hierarchy of boxes, four a node, for boxes that stay or move.
 //!
-//! Rays that lie side by side go through it as one *beam*. With o and o + w the middles of where its rays begin and end,
-//! and h how far (along each axis) a ray may begin or end beside them, each ray is within h of o + t w when it has gone
-//! the share t of its way. Where it meets a box from a to b, therefore,
+//! Rays side by side traverse it as one *beam*. o and o + w are the middles of where its rays begin and end, and h is
+//! how far (along each axis) a ray may begin or end beside them. Each ray is within h of o + t w at the fraction t of
+//! its length. Where it meets a box from a to b, therefore,
 //!
 //! ```text
 //! a − h ≤ o + t w ≤ b + h,  0 ≤ t ≤ 1     in each axis

@@ -1,4 +1,4 @@
-//! Broad phase: which pairs can meet within an interval, by boxes around their swept colliders.
+//! Broad phase by sort and sweep (D. Baraff 1992) over the boxes of swept colliders.
 //!
 //! Sort and sweep (D. Baraff 1992): the boxes of the bodies are sorted by their lower ends along the axis on which they
 //! spread most, and only boxes that overlap there are compared. The order of the last time is nearly that of the

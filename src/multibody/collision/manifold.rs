@@ -1,4 +1,5 @@
-//! Points of contact of shapes that lie on each other: the features that face each other, clipped.
+//! Contact manifolds of resting shapes, by clipping the features that face each other (I. Sutherland, G. Hodgman
+//! 1974).
 //!
 //! Along the contact normal n each core shows a point, an edge or a face (what leans by little counts as lying,
 //! `geometry::support`). A face is clipped by the side planes of the other (I. Sutherland and G. Hodgman 1974), an

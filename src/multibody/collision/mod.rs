@@ -1,4 +1,4 @@
-//! Where bodies touch: convex colliders, the pairs that can meet, when they do, and at which points.
+//! Collision detection: convex colliders, broad phase, distance queries, contact manifolds, swept tests.
 
 mod broad_phase;
 mod conservative_advancement;

@@ -1,4 +1,4 @@
-//! Of many pairs of the same two bodies those that can meet while these stay near where they are.
+//! Cache of nearby collider pairs of two bodies, valid while the bodies stay near where they were.
 //!
 //! A wheel's teeth and two pallets are some hundred pairs, of which the same few are near for many steps. Where all of them
 //! were last looked at, each collider in a cube about its box, a pair was left out if its cubes were farther apart than M
@@ -8,9 +8,9 @@
 //! d_a + d_b + s_a + s_b ≤ M        d ≤ |Δx| + 2 |Δq| ρ
 //! ```
 //!
-//! with d how far any point of a body's colliders can be from where it was then, s how far it strays in the interval that is
-//! looked at, and ρ the farthest of these points from the centre of mass (a turn by θ takes it 2 ρ sin ½θ, and |Δq| is
-//! 2 sin ¼θ).
+//! d bounds how far any point of a body's colliders is from where it was then, and s how far it moves in the present
+//! interval. ρ is the farthest of these points from the centre of mass: a rotation by θ moves it by 2 ρ sin ½θ, and
+//! |Δq| is 2 sin ¼θ.
 
 use super::conservative_advancement::{BoxSize, CONTACT_MARGIN, Sweep};
 use soffio_math::{DQuat, DVec3};
@@ -52,7 +52,7 @@ impl PairCache {
         gone(0) + gone(1) <= self.margin
     }
 
-    /// Looks at all pairs, `cubes` telling those of one, at the beginning of these ways.
+    /// Tests all pairs at the beginning of these sweeps; `cubes` gives the two cubes of a pair.
     pub fn refresh(&mut self, sweeps: [&Sweep; 2], all: &[usize], cubes: impl Fn(usize) -> [Cube; 2]) {
         self.start_poses = sweeps.map(Sweep::start_pose);
         self.bounding_radii = [0.0; 2];

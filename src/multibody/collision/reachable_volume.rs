@@ -1,10 +1,10 @@
-//! Where colliders can ever be: bounds from how their bodies are joined, found once at load.
+//! Reachable volumes of colliders: bounds from how their bodies are joined, found once at load.
 //!
-//! A body nailed to the world by a point p keeps every collider in a ball about the nail, as far as the collider
-//! reaches from p. Its other joints stay in balls about the same nail too, each as far as it lies from p; whatever
-//! hangs from them stays in the ball larger by its own arms, and so on along the joints: the least radius of each joint
-//! point is a shortest path (E. Dijkstra 1959) whose steps are the distances of joint points on one body. A body that
-//! only turns about a fixed line keeps to a ring about it, which is the better bound, and its joints keep to circles.
+//! A body with a world anchor p keeps every collider in a ball about p, of the collider's largest distance from p.
+//! Its other joints stay in balls about p too, and bodies attached to them in balls larger by their own arms. The
+//! least radius of each joint point is a shortest path (E. Dijkstra 1959) whose steps are the distances of joint
+//! points on one body. A body that only rotates about a fixed line keeps to a ring about it, which is the better
+//! bound, and its joints keep to circles.
 //!
 //! Two colliders whose bounds are apart never meet. A joint that is open at the start, or that may be released, bounds
 //! nothing: leave it out.

@@ -20,10 +20,10 @@
 //! all). So a body with a large load rotates into the pull instead of being carried along.
 //!
 //! Small displacements rotate nothing by this rule, so sweeps from several fixed bodies would oscillate for ever.
-//! From the second sweep on a body *aims*: it rotates by the angle from r to r + s, at which its centre would stay on
-//! the line of its arm, times |r|²/(|r|² + I₂/m₂); a wheel held at its centre does not rotate. That angle never
-//! exceeds φ, and vanishes with s. It is limited to [`MAX_AIM_ROTATION`] in one sweep, or a body would tumble between
-//! two hands that push.
+//! From the second sweep on a body *aims*: it rotates by the angle from r to r + s, which keeps its centre on the
+//! line of its arm, times |r|²/(|r|² + I₂/m₂). A wheel held at its centre does not rotate. That angle never exceeds
+//! φ, and vanishes with s. It is limited to [`MAX_AIM_ROTATION`] in one sweep, or a body would tumble between two
+//! hands that push.
 
 use soffio_math::{DMat3, DVec3, atan2, exp};
 

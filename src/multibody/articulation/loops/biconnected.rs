@@ -1,11 +1,11 @@
-//! The graph of a figure, and its biconnected components: where the tree of joints has loops.
+//! Biconnected components of the graph of joints and couplings (J. Hopcroft, R. Tarjan, Algorithm 447, 1973): where
+//! the tree of joints has loops.
 //!
-//! Vertices are the bodies that give way, the trains, and the ground: the world and all that is driven. Every joint is an
-//! edge; a coupling is a ring of edges through all that it touches. A *component* is a largest set of edges of which any two
-//! lie on one cycle (J. Hopcroft, R. Tarjan, Algorithm 447, 1973). Two components share one vertex at most, so that they form
-//! a tree, whatever loops are within them. A component that is one joint is an edge of the tree; any other is a
-//! [`Component`] that is eliminated at once (`mod.rs`). Its *top* is the vertex by which it hangs on the rest: the one that is
-//! nearest to the ground, or to the first body of a piece that floats.
+//! Vertices are the free bodies, the gear trains, and the ground: the world and all kinematic bodies. Every joint is
+//! an edge; a coupling is a cycle of edges through all that it touches. A *component* is a largest set of edges of
+//! which any two lie on one cycle. Two components share one vertex at most, so they form a tree. A component of one
+//! joint is an edge of the tree; any other is a [`Component`] that is eliminated at once (`mod.rs`). Its *top* is its
+//! vertex nearest to the ground, or to the first body of a floating piece.
 
 use crate::articulation::topology::Link;
 
@@ -35,7 +35,7 @@ impl Component {
     }
 }
 
-/// The vertices of a figure.
+/// Vertices of the graph.
 #[derive(Clone, Debug)]
 pub(in crate::articulation) struct Graph<'a> {
     /// Whether each body's motion is given.
@@ -63,8 +63,8 @@ impl Graph<'_> {
         }
     }
 
-    /// The edge of a joint, the ring of a coupling: what it touches, `None` being the world. What touches a train
-    /// touches the ground that carries it.
+    /// Vertices of a joint or coupling; `None` is the world. One that touches a train also touches the ground that
+    /// carries it.
     fn cycle(&self, touched: &[Option<usize>]) -> Vec<Vertex> {
         let mut cycle: Vec<Vertex> = touched.iter().map(|&body| self.vertex(body)).collect();
         if cycle.iter().any(|&vertex| vertex > self.ground()) {
@@ -75,7 +75,7 @@ impl Graph<'_> {
         cycle
     }
 
-    /// All components, of a figure with these joints (`None` is a train's own) and couplings, each by what it touches.
+    /// All components, for these joints (`None`: inside a gear train) and couplings, each by the bodies it touches.
     pub fn components(&self, joints: &[Option<Link>], couplings: &[Vec<Option<usize>>]) -> Vec<Component> {
         let trains = self.train.iter().flatten().map(|train| train + 1).max().unwrap_or(0);
         let axle = |train: usize| Edge { ends: [self.ground(), self.ground() + 1 + train], tie: None };

@@ -1,4 +1,4 @@
-//! One component of a figure's graph that has loops: which blocks its joints and couplings have, and where.
+//! Factor of one loop component: its rows' blocks on bodies and trains.
 
 use super::biconnected::Component;
 use super::sparse_structure::SparseFactor;

@@ -1,4 +1,4 @@
-//! The elimination of a component, and the solves by it, in the letters of the folder's head.
+//! Elimination of a loop component and its solves, in the symbols of the module's head.
 
 use super::cluster::{Cluster, Node};
 use super::sparse_structure::BORDER;
@@ -119,7 +119,7 @@ impl Cluster {
         }
     }
 
-    /// Adds what trains answer.
+    /// Adds the response of gear trains.
     #[inline(always)]
     fn add_trains(&mut self, source: RowSource, trains: &Trains) {
         let Self { nodes, factor, coefficients, .. } = self;

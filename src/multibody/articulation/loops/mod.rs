@@ -1,21 +1,23 @@
-//! Closed loops and couplings: what a tree cannot hold is eliminated component by component, each with a sparse factor.
+//! Sparse factorisation of closed loops: the Schur complement of each biconnected component's rows.
 //!
-//! The joints of a figure make a tree of biconnected components (`graph.rs`). A component with loops hangs on its *top* t, a
-//! body or the ground. It is eliminated as `tree.rs` eliminates a body that hangs on its parent, by the same equations, where c
-//! stands for all of its bodies but the top. With A the articulated masses of these (one block a body: what hangs on each is
-//! gone already), J_c and J_t the blocks of the component's rows on them and on the top, J_d those on bodies whose a is given:
+//! The joints of an articulation form a tree of biconnected components (`biconnected.rs`). A component with loops is
+//! attached to its *top* t, a body or the ground. It is eliminated like a body with its parent in `tree.rs`, by the
+//! same equations, where c stands for all of its bodies but the top. A is their articulated inertia (one block a
+//! body, with all children eliminated). J_c and J_t are the blocks of the component's rows on them and on the top,
+//! J_d those on bodies whose a is given:
 //!
 //! ```text
 //! K = J_c A⁻¹ J_cᵀ + Γ         W = A⁻¹ J_cᵀ         e = g − Wᵀ b_c − J_d a_d
 //! λ = K⁻¹ (e − J_t a_t)        A_t += J_tᵀ K⁻¹ J_t        b_t += J_tᵀ K⁻¹ e        a_c = A⁻¹ b_c + W λ
 //! ```
 //!
-//! K has a block for each two joints that share a body, so it is as sparse as the figure is. `sparse.rs` factors it in an
-//! order that is found once. A chain of loops costs what its loops cost one by one, a net of n knots about n^1.5.
+//! K has a block for each two joints that share a body, so it is as sparse as the mechanism. `sparse_structure.rs`
+//! finds its elimination order once. A chain of loops costs as much as its loops one by one, a net of n knots about
+//! n^1.5.
 //!
-//! All rows of a component are eliminated before its top. No row is lost by that: where joints are closed, a motion of component
-//! and top as one rigid body opens none of them, so rows that are independent stay so with the top held. Where points are still
-//! apart this need not hold; then the figure gathers, and rows are soft.
+//! All rows of a component are eliminated before its top. No row is lost: where joints are closed, a rigid motion of
+//! component and top opens none of them, so independent rows stay independent with the top held. Open joints may
+//! violate this; then rows are being stabilised, and are soft.
 //!
 //! A train (`trains/`) is a body of one coordinate: a row's block on it is its f, A its m. The ground carries it, so that no
 //! component with a train has a top.
@@ -35,8 +37,8 @@ use eliminate::RowSource;
 use soffio_math::spatial::row_blocks::RowVec;
 use soffio_math::spatial::{NUMBERS, Vec6};
 
-/// Γ of rows that close loops while a figure gathers, as a share of their answer alone. On its way together a figure
-/// passes places where its rows almost repeat each other but do not agree; what little holds them there must not decide.
+/// Γ of rows that close loops during stabilisation, relative to their uncoupled effective inverse mass. During
+/// assembly rows may be almost redundant but inconsistent; this compliance keeps their multipliers small.
 pub const STABILISING_COMPLIANCE: f64 = 1e-4;
 
 /// What the elimination of a component reads beside its own rows.
@@ -93,7 +95,7 @@ pub struct Loops {
     clusters: Vec<Cluster>,
     /// Component and node of each row; none where nothing gives way to it.
     places: Vec<Option<(usize, usize)>>,
-    /// What the rows push along each train.
+    /// Impulses of the rows along each train.
     pushes: Vec<f64>,
     /// The same for a rate of each train alone that they are not asked to keep; empty until it is asked for.
     train_responses: Vec<f64>,
@@ -164,8 +166,8 @@ impl Loops {
         &self.pushes
     }
 
-    /// Lets the rows answer an impulse that only trains feel, whose own answers they have already. Contacts ask often, and
-    /// there are few trains: what a rate of each of them calls up is found once.
+    /// Adds the rows' response to an impulse that acts on trains alone, whose own responses are set. Contacts need
+    /// this often, and there are few trains, so the responses to each of them are computed once.
     pub fn correct_trains(&mut self, trains: &mut Trains) {
         let count = self.pushes.len();
         if self.train_responses.is_empty() {

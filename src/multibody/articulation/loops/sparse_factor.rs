@@ -1,4 +1,4 @@
-//! The numbers of a sparse factor (`sparse.rs`): its elimination and its solves.
+//! Numeric factorisation and triangular solves of the sparse factor (`sparse_structure.rs`).
 
 use super::sparse_structure::SparseFactor;
 

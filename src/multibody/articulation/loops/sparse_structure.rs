@@ -1,4 +1,4 @@
-//! A sparse factor A = Uᵀ D U of a symmetric positive semi-definite matrix of blocks, in an order of least degree.
+//! Sparse block factorisation A = Uᵀ D U of a symmetric positive semi-definite matrix in minimum-degree order.
 //!
 //! Unknowns come in *nodes* (the rows of a joint), of which cliques are given: all pairs in a clique may have a block in A.
 //! Eliminating a node makes a clique of those that it has blocks with. The order is found once: next is always the node that

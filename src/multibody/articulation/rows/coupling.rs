@@ -1,6 +1,6 @@
 //! Couplings (1 row): C = Σ c q − const, q the turns and ways of bodies. Gears, drums with cords, racks, screws.
 //!
-//! **Turn** of body i about its axis n (fixed in it) against the frame k that carries the axle:
+//! **Angle** of body i about its axis n (fixed in it) against the frame k that carries the axle:
 //!
 //! ```text
 //! q = 2 atan2(d_v·n, d_w) + 2π · turns         d = q₀⁻¹ q, the relative rotation since the start, in the body's axes
@@ -8,13 +8,13 @@
 //! J̇ẋ = (ω_i − ω_k)·ė         ė = (ṅ + ṁ − e (ṅ·m + n·ṁ))/(1 + n·m)          ṅ = ω_i×n, ṁ = ω_k×m
 //! ```
 //!
-//! with m the direction in the frame from which n started. On an axle both are one, e = n; where the body also swings,
-//! q is the twist of d about n, and e its gradient (write D n by the quaternion d), so that a torsion spring on a ball
-//! joint keeps energy. The value comes from the rotations themselves, so that phases never drift. Whole turns are
-//! counted, and Σ c (2π k) is summed from the counts: with tooth numbers for c the sum is exact over any time.
+//! m is the direction in the frame from which n started. On an axle both are equal, e = n. Where the body also
+//! swings, q is the twist of d about n, and e its gradient, so that a torsion spring on a ball joint conserves
+//! energy. The value comes from the rotations themselves, so phases never drift. Whole revolutions are counted, and Σ
+//! c (2π k) is summed from the counts: with tooth numbers for c the sum is exact over any time.
 //!
-//! **Way** of a point P along a direction u fixed in the frame k, from where P was at the start (S, fixed in k): the
-//! point-on-plane row with normal u.
+//! **Displacement** of a point P along a direction u fixed in the frame k, from where P was at the start (S, fixed in
+//! k): the point-on-plane row with normal u.
 //!
 //! Signs: two external gears turn oppositely, r₁ q₁ + r₂ q₂ = const with axes alike; an internal one has −r₂. A weight
 //! on a drum: way − r q = const; compounded pulleys multiply the way.

@@ -47,7 +47,7 @@ pub(super) struct Rows {
     /// Rotation matrices of bodies, where any row reads them; the bodies read by rows outside trains.
     pub frames: Vec<DMat3>,
     pub framed: Vec<usize>,
-    /// Is any row being drawn together?
+    /// Whether any row is being closed by stabilisation.
     pub stabilising: bool,
     /// Whether the states hold C of the last evaluation.
     pub values_valid: bool,

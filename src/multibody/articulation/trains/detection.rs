@@ -1,4 +1,4 @@
-//! Which trains a figure has: what is free along one twist, and in what ratios couplings tie it.
+//! Detection of gear trains: bodies with one DOF, and the ratios in which couplings tie them.
 
 use super::{Freedom, Train, Trains, Wheel};
 use crate::articulation::{Anchor, Axis, Constraint, ConstraintKind, Measure, Term};

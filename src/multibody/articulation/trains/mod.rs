@@ -1,8 +1,8 @@
-//! Trains: wheels and weights that turn and slide on what stands still, geared to each other, have one coordinate.
+//! Gear trains in reduced coordinates: bodies on hinges and sliders of the world, coupled to one coordinate.
 //!
-//! A body on a hinge or slider of the world moves along one twist s alone. Where couplings tie such bodies in a tree, the
-//! turns and ways q_i of all of them are in fixed proportion to one, q_i = ρ_i q, so that a whole train costs one division
-//! instead of six rows a body and one a coupling. With p any motion that its joints ask for,
+//! A body on a hinge or slider of the world moves along one twist s alone. Couplings that tie such bodies in a tree
+//! keep all their coordinates q_i in fixed proportion to one, q_i = ρ_i q. So a whole train costs one division
+//! instead of six rows a body and one a coupling. With p any motion that its joints require,
 //!
 //! ```text
 //! a_i = p_i + ρ_i s_i q̈       m q̈ = Σ ρ_i s_i·(b_i − M_i p_i)       m = Σ ρ_i² s_i·M_i s_i
@@ -11,11 +11,11 @@
 //! places          p = from where it is to where q has it
 //! ```
 //!
-//! and m does not change. Places come from the angle of the train's fastest wheel and its whole turns, so that phases stay in
-//! the ratio of the teeth for ever. A row outside the tree that touches a train (`loops/`) answers it by
-//! f = Σ ρ_i s_i·J_i, to which it adds f²/m.
+//! and m is constant. Positions come from the angle of the train's fastest wheel and its whole revolutions, so that
+//! phases keep the ratio of the teeth for ever. A row outside the tree that touches a train (`loops/`) has the
+//! coefficient f = Σ ρ_i s_i·J_i, and the train adds f²/m to its effective inverse mass.
 //!
-//! A train's joints always act, never break and do not rub; what they carry is not asked.
+//! A train's joints always act, never break and have no friction; their loads are not computed.
 
 mod detection;
 
@@ -151,8 +151,8 @@ impl Trains {
         }
     }
 
-    /// Tells how far a body has turned about an axis since the start, whole turns and all, rad: the train goes on from there,
-    /// in the phases of the start, with as many turns of its leader as its slowest wheel says.
+    /// Sets how far a body has rotated about an axis since the start, with whole revolutions, rad. The train
+    /// continues from there with the phases of the start; its slowest wheel determines the revolutions of its leader.
     pub fn set_angle(&mut self, body: usize, axis: DVec3, angle: f64) {
         let Some(index) = self.of_body.get(body).copied().flatten() else { return };
         let Wheel { train: of, freedom: Freedom::Revolute { about, .. }, ratio, .. } = self.wheels[index] else {
@@ -167,7 +167,7 @@ impl Trains {
         }
     }
 
-    /// Counts on from what [`Trains::turned`] told.
+    /// Resumes counting from the angles of [`Trains::set_angle`].
     pub fn resume_count(&mut self, lane_blocks: &LaneBlocks) {
         for train in &mut self.trains {
             if train.source_ratio.is_finite() {
