@@ -1,13 +1,13 @@
 //! Depth of overlapping convex cores: the expanding polytope algorithm.
 //!
-//! Where cores A and B overlap, the origin lies in their Minkowski difference A − B. The nearest point of its surface,
-//! depth · n, is the shortest way out: B moved by it (or A moved back) leaves the two touching. The polytope grows from
-//! the simplex that the walk of `convex` ended with: its face nearest the origin is pushed out to the farthest
-//! corner along its normal, until no corner lies farther (G. van den Bergen, Proximity Queries and Penetration Depth
-//! Computation on 3D Game Objects, 2001).
+//! Where cores A and B overlap, the origin lies in their Minkowski difference A − B. The nearest point of its
+//! surface, depth · n, is the shortest way out: B moved by it (or A moved back) leaves the two touching. The polytope
+//! starts from the last simplex of `convex`. Its face nearest the origin is pushed out to the farthest corner along
+//! its normal, until no corner lies farther (G. van den Bergen, Proximity Queries and Penetration Depth Computation
+//! on 3D Game Objects, 2001).
 //!
-//! Room is fixed. A round body wants ever more faces; when they run out, the normal is bettered by a search of the
-//! sphere around it for a direction of less extent, h(n) = max (A − B)·n, which is what the depth is the least of.
+//! Capacity is fixed. A round body needs ever more faces. When they run out, the normal is refined by a search on its
+//! sphere for a direction of less extent, h(n) = max (A − B)·n; the depth is the minimum of h.
 
 use super::convex::{Corner, walk};
 use super::support::Support;

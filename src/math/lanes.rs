@@ -1,9 +1,9 @@
 //! Four numbers side by side, and the same formula for four bodies or for one.
 //!
-//! What is kept of bodies in hot loops lies in fours: number k of a [`Four`] belongs to the kth body of a quad. A formula
-//! is written once, over a [`Real`]; [`Lanes`] says whether it takes all four numbers, as one vector of the processor,
-//! or one of them. Vectors are added, multiplied and divided number by number, each rounded as IEEE 754 says and
-//! nothing fused, so the bits are the same on every processor and in either way (a test holds them to that).
+//! The numbers of bodies in hot loops are stored in lane blocks of four: number k of a [`Four`] belongs to the body
+//! in lane k. A formula is written once, over a [`Real`]; [`Lanes`] selects all four lanes, as one vector of the
+//! processor, or one of them. Vectors are added, multiplied and divided number by number, each rounded as IEEE 754
+//! says and nothing fused, so the bits are the same on every processor and for either choice (a test checks that).
 //!
 //! `fearless_simd::dispatch!` makes a loop for each set of vector instructions that `.cargo/config.toml` leaves (SSE2 and
 //! AVX2 on x86-64; without that file all four), and takes the best that the processor has. Whatever such a loop calls must
@@ -16,10 +16,10 @@ use fearless_simd::{Simd, f64x4};
 
 use super::{DQuat, DVec3};
 
-/// Bodies of a quad.
+/// Lanes of a block.
 pub const WIDTH: usize = 4;
 
-/// A number of each body of a quad.
+/// A number of each body of a lane block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(32))]
 pub struct Four(pub [f64; WIDTH]);
@@ -61,7 +61,7 @@ impl<S: Simd> Real for f64x4<S> {
     }
 }
 
-/// Which bodies of a quad a formula is for.
+/// Lanes that a formula computes: all four, or one.
 pub trait Lanes: Copy {
     /// What it calculates with.
     type T: Real;
@@ -72,7 +72,7 @@ pub trait Lanes: Copy {
     /// N numbers of each of these bodies.
     fn rows<'a, const N: usize>(self, of: impl Fn(usize) -> &'a [f64; N]) -> [Self::T; N];
 
-    /// The other way: hands out each body's lane and N numbers, the last one's first, in a quad that has `count`.
+    /// Scatters: calls `to` with each lane and its N numbers, the last lane first, for the first `count` lanes.
     fn scatter<const N: usize>(self, count: usize, x: &[Self::T; N], to: impl FnMut(usize, &[f64; N]));
 
     /// The number of one body.

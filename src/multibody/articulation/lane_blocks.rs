@@ -132,7 +132,7 @@ pub struct LaneBlocks {
     level: Level,
     block_bodies: Vec<BlockBodies>,
     body_lanes: Vec<BodyLane>,
-    /// Indices of the quads in which somebody is awake.
+    /// Indices of the blocks with an awake body.
     awake: Vec<usize>,
     /// The lane blocks; one more than `block_bodies`.
     lane_blocks: Vec<LaneBlock>,
@@ -178,7 +178,7 @@ impl LaneBlocks {
             .extend((0..self.block_bodies.len()).filter(|&lane_block| !all_asleep(&self.block_bodies[lane_block])));
     }
 
-    /// Indices of the quads in which somebody is awake.
+    /// Indices of the blocks with an awake body.
     pub fn awake(&self) -> &[usize] {
         &self.awake
     }

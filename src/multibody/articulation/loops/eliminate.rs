@@ -46,7 +46,8 @@ impl<'a> RowSource<'a> {
 }
 
 impl Cluster {
-    /// Factors K for these rows and lays what is left of them on the articulated mass of the top. Does the figure gather?
+    /// Factors K for these rows, and adds their Schur complement to the articulated inertia of the top.
+    /// `stabilising`: rows that close loops get [`STABILISING_COMPLIANCE`].
     #[inline(always)]
     pub fn factor(
         &mut self,

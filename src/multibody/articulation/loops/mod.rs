@@ -87,7 +87,7 @@ pub struct Span {
     pub block: Option<usize>,
 }
 
-/// The loop rows of a figure and their factor.
+/// Rows of all loops, and their factor.
 #[derive(Clone, Debug, Default)]
 pub struct Loops {
     /// Every row that there may be.
@@ -135,8 +135,7 @@ impl Loops {
         self.train_responses.clear();
     }
 
-    /// Eliminates a component, once all that hangs on its bodies is gone. Joints have their rows in `blocks`. Does the figure
-    /// gather?
+    /// Eliminates a component, after all children of its bodies.
     #[inline(always)]
     pub fn factor(&mut self, index: usize, masses: &mut [[f64; NUMBERS]], inputs: LoopInputs) {
         let LoopInputs { blocks, trains, stabilising } = inputs;

@@ -82,7 +82,7 @@ struct Train {
     source_ratio: f64,
 }
 
-/// All trains of a figure.
+/// All gear trains of an articulation.
 #[derive(Clone, Debug, Default)]
 pub struct Trains {
     wheels: Vec<Wheel>,
