@@ -2,28 +2,27 @@
 //!
 //! ```text
 //! L = mean square, 5 ms up and 150 ms down        G = LEVEL − (1 − 1/RATIO) max(0, L − THRESHOLD)   dB
-//! y = 10^(G/20) · shelf(x)                         shelf: first order, SOFTER above CORNER
+//! y = 10^(G/20) · shelf(x)                         shelf: first order, SHELF_DB above SHELF_CORNER
 //! ```
 //!
-//! Walls and doors let low sounds through and take high ones, but it is the high ones and the sudden ones that draw
-//! attention in a quiet house; so loud is brought down to soft, and brightness taken off. By day all of this is bypassed,
-//! to the bit; between day and night it glides for [`GLIDE`].
+//! Sudden and high sounds draw attention in a quiet building, so the dynamic range and the treble are reduced. By day the
+//! signal passes unchanged, to the bit. The transition takes [`GLIDE`].
 //!
-//! Gains are found once in [`STRIDE`] frames of the signal itself and run straight between, so that blocks do not matter.
+//! Gains are computed once in [`STRIDE`] frames of the signal and interpolated linearly, so that blocks do not matter.
 
 use soffio_math::{PI, amplitude_to_db, db_to_amplitude, exp, sincos};
 
 /// Level of soft sounds, dB.
 pub const LEVEL: f64 = -8.0;
-/// Above this, dB of full scale (root mean square), sounds are brought together by [`RATIO`].
+/// Threshold of the compressor, dB of full scale (root mean square).
 pub const THRESHOLD: f64 = -36.0;
-/// Of so many dB above the threshold one is left.
+/// Compression ratio above the threshold.
 pub const RATIO: f64 = 3.0;
 /// Corner of the shelf, Hz, above which the level changes by [`SHELF_DB`].
 pub const SHELF_CORNER: f64 = 2500.0;
-/// dB.
+/// Gain of the shelf, dB.
 pub const SHELF_DB: f64 = -9.0;
-/// From day to night, s.
+/// Duration of a transition, s.
 pub const GLIDE: f64 = 2.0;
 /// Attack and release of the level, s.
 const ATTACK_RELEASE: (f64, f64) = (0.005, 0.15);
