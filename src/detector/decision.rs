@@ -41,8 +41,6 @@ const AGAIN_S: f64 = 10.0;
 const BREATH_LEVEL_S: f64 = 0.5;
 
 /// Parameters of the cumulative sum.
-
-/// The numbers of the cumulative sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rules {
     /// Log-odds are clamped to this range, nats.

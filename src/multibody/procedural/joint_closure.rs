@@ -6,7 +6,7 @@
 //! 2. the first point or plane: compulsive rotation, of which the orientations leave only what turns about none of the
 //!    axes e that they hold (w − Σ (w·ê) ê), and compulsive translation; for a plane s = −C N;
 //! 3. all rows together, and the pair's violated limits (method 3.5: an angle beyond its limit is put back to it):
-//! Newton steps on the body's six coordinates, of least kinetic energy,
+//!    Newton steps on the body's six coordinates, of least kinetic energy,
 //!
 //! ```text
 //! K = J M⁻¹ Jᵀ        δ = −M⁻¹ Jᵀ K⁻¹ C
