@@ -206,7 +206,7 @@ pub fn run(
         faults,
         seed: settings.seed,
     };
-    Ok(Comparison { summary, samples: samples })
+    Ok(Comparison { summary, samples })
 }
 
 /// Accumulates the differences of two runs.

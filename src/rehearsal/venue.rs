@@ -122,8 +122,6 @@ impl Venue {
     }
 
     /// The same venue from a piece of the crowd on, each of [`PIECE_S`]; `self` must be at its beginning.
-
-    /// The same house from a piece of the crowd on, each of [`PIECE_S`]; `self` must not have been heard yet.
     pub fn at(&self, piece: u64) -> Self {
         Self { pieces: piece, sample: (piece as f64 * PIECE_S * R) as u64, ..self.clone() }
     }

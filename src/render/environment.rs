@@ -5,7 +5,7 @@
 //!   `m / (mips − 1)`, view along the normal (Karis 2013). Each texel is a sum over the same Hammersley points; a
 //!   sample reads the mip whose texel is as large as its share of the sphere, so few are enough (Křivánek and
 //!   Colbert 2008).
-//! Split-sum table: specular albedo A · F0 + B by cosine and roughness, and the albedo of a cloth's sheen.
+//! - Split-sum table: specular albedo A · F0 + B by cosine and roughness, and the albedo of a cloth's sheen.
 //!
 //! All on the CPU, once, so that every driver gets the same numbers; it takes a fraction of a second.
 

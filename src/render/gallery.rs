@@ -5,7 +5,7 @@
 //!
 //! - fields (softboxes, window): diffuse emitters;
 //! - lamps: small bright discs with a cone, which cast the shadows;
-//! reflections between the walls, which `radiosity` computes.
+//! - reflections between the walls, which `radiosity` computes.
 //!
 //! The same functions bake the gallery's light map and give the radiance that the exhibit reflects, so a mirror shows
 //! the gallery. Radiances are relative: at exposure 1 the wall behind the exhibit has about three quarters of white.

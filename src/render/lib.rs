@@ -221,14 +221,7 @@ impl Options {
         let software = gpu.is_software();
         let shadow_quality = if software { ShadowQuality::Light } else { ShadowQuality::Full };
         let shader_resolve = software && gpu.reads_samples();
-        Self {
-            msaa: 4,
-            format,
-            shadow_quality: shadow_quality,
-            shader_resolve,
-            lighting: Lighting::default(),
-            shaders: Arc::default(),
-        }
+        Self { msaa: 4, format, shadow_quality, shader_resolve, lighting: Lighting::default(), shaders: Arc::default() }
     }
 }
 

@@ -348,7 +348,7 @@ impl Pipelines {
             dust: overlay("dust", &dust, DUST_VERTEX, &[], adding),
             plane_meshes,
             plane_wires,
-            plane_plates: plane_plates,
+            plane_plates,
             shadow_map: pipeline(
                 device,
                 PipelineState {

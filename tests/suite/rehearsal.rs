@@ -228,8 +228,6 @@ fn the_detector_alone_needs_no_pictures() {
 }
 
 /// A rehearsal with a single exhibit.
-
-/// A rehearsal of the first work alone.
 fn rehearsal(hours: f64, seed: u64, crowd: Crowd) -> Rehearsal {
     let folder = exhibit::resolve("steel-fish").unwrap_or_else(|report| panic!("{report}"));
     let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{report}")));
