@@ -17,6 +17,8 @@
 //!
 //! The main types are [`Rehearsal`] (the settings), [`day::Day`] (the programme), [`visitor::Visit`] (one visitor) and [`scorer`]
 //! (whether the exhibit responds). [`run()`] rehearses with pictures; [`run_detector()`] runs the detector alone over the same day.
+//!
+//! ```
 //! use soffio_rehearsal::day::Day;
 //!
 //! // The programme of one hour with three exhibits; attract mode begins after two minutes.

@@ -66,13 +66,13 @@ pub struct BallJointBlock {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JointTarget {
     /// Close the position error: g = −C.
-    Closed,
+    ClosePosition,
     /// Zero relative acceleration: g = −J̇ẋ.
-    Still,
+    ZeroAcceleration,
     /// g = 0.
-    Nothing,
+    Zero,
     /// g as set by `BallJoints::set_targets` or `BallJoints::target_zero_rate`.
-    Told,
+    Given,
 }
 
 impl<T: Real> BallElimination<T> {
@@ -148,13 +148,13 @@ impl BallJointBlock {
     #[inline(always)]
     pub fn wanted<L: Lanes>(&self, lanes: L, wanted: JointTarget) -> V3<L::T> {
         match wanted {
-            JointTarget::Closed => -self.value.get(lanes),
-            JointTarget::Still => -self.bias.get(lanes),
-            JointTarget::Nothing => {
+            JointTarget::ClosePosition => -self.value.get(lanes),
+            JointTarget::ZeroAcceleration => -self.bias.get(lanes),
+            JointTarget::Zero => {
                 let zero = lanes.gather(|_| 0.0);
                 V3 { x: zero, y: zero, z: zero }
             }
-            JointTarget::Told => self.wanted.get(lanes),
+            JointTarget::Given => self.wanted.get(lanes),
         }
     }
 }

@@ -144,7 +144,7 @@ impl Tree {
                 EliminationStep::Point(BodyLane { lane_block, lane }) => {
                     self.outward_ball_joints(One(lane), lane_block, wanted, a)
                 }
-                EliminationStep::Body(body) => self.outward(body, b, JointTarget::Told, lambda, a),
+                EliminationStep::Body(body) => self.outward(body, b, JointTarget::Given, lambda, a),
                 EliminationStep::Loops(component) => loops.outward(component, b, lambda, a),
             }
         }
@@ -196,10 +196,10 @@ impl Tree {
         let node = &self.nodes[body];
         if node.ball_joint {
             let BodyLane { lane_block, lane } = self.body_lanes[body];
-            let Some(g) = g else { return self.inward_ball_joints(One(lane), lane_block, b, JointTarget::Nothing) };
+            let Some(g) = g else { return self.inward_ball_joints(One(lane), lane_block, b, JointTarget::Zero) };
             let g = DVec3::from_slice(&g[node.at..]) * node.sign();
             self.points[lane_block].wanted.put(One(lane), g.into());
-            return self.inward_ball_joints(One(lane), lane_block, b, JointTarget::Told);
+            return self.inward_ball_joints(One(lane), lane_block, b, JointTarget::Given);
         }
         let Some(f) = self.general[body].as_ref().filter(|_| !self.kinematic[body]) else { return };
         let (lambda, push) = (&mut lambda[node.at..node.at + f.rows], b[body]);

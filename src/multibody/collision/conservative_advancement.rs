@@ -98,7 +98,7 @@ impl Sweep {
         BoxSize { half: half.length(), bounding_radius: middle.distance(self.center) + half.length() }
     }
 
-    /// Farthest that a point of such a box can be from where it was at the start, m, [`Sweep::sag`] included.
+    /// Farthest that a point of such a box can be from where it was at the start, m, [`Sweep::arc_deviation`] included.
     pub(super) fn max_deviation(&self, size: &BoxSize) -> f64 {
         self.max_travel(size.bounding_radius) + 0.25 * self.rotation_bound * self.rotation_bound * size.bounding_radius
     }

@@ -1,4 +1,4 @@
-//! The panel's pages, one a file: each draws itself from a [`PanelInput`](super::Sight) and remembers what it needs.
+//! The panel's pages, one a file: each draws itself from a [`PanelInput`](super::PanelInput) and remembers what it needs.
 
 pub(super) mod bodies;
 mod display;

@@ -15,7 +15,7 @@
 //!
 //! A pivot that is a tiny share of what its row had before says that the row repeats others: it gets 0, so that its
 //! unknown comes out 0 and the others share the work. Sizes of nodes may change from factor to factor up to their capacity.
-//! Nothing allocates after [`Sparse::new`].
+//! Nothing allocates after [`SparseFactor::new`].
 
 use std::collections::BTreeSet;
 

@@ -63,7 +63,7 @@ impl System {
             self.factor.tree.inward(body, &mut self.b, None, &mut self.lambda);
         }
         for &body in paths {
-            self.factor.tree.outward(body, &self.b, JointTarget::Nothing, &mut self.lambda, &mut self.a);
+            self.factor.tree.outward(body, &self.b, JointTarget::Zero, &mut self.lambda, &mut self.a);
         }
     }
 

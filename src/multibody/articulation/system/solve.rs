@@ -12,7 +12,7 @@ impl System {
     /// Solves for `a` and `lambda` from `b` and `g`.
     pub fn solve(&mut self) {
         self.factor.ball_joints.set_targets(&mut self.factor.tree, &self.g);
-        self.solve_for(JointTarget::Told);
+        self.solve_for(JointTarget::Given);
         self.copy_ball_joint_multipliers();
     }
 
@@ -63,7 +63,7 @@ impl System {
                 self.g[row] = -self.rows.states[row].bias;
             }
         }
-        self.solve_as(JointTarget::Still);
+        self.solve_as(JointTarget::ZeroAcceleration);
     }
 
     /// Solves for the displacement that closes the position errors: J δ = −C, of least kinetic energy.
@@ -79,7 +79,7 @@ impl System {
                 *g = if state.stabilised { 0.0 } else { -state.value };
             }
         }
-        self.solve_as(JointTarget::Closed);
+        self.solve_as(JointTarget::ClosePosition);
     }
 
     /// Solves for the velocity change with J (v + δ) + Γ λ = ḟ: hard rows hold, soft rows resist. Stabilised rows
@@ -110,7 +110,7 @@ impl System {
                 *g = if state.stabilised { 0.0 } else { -*g };
             }
         }
-        self.solve_as(JointTarget::Told);
+        self.solve_as(JointTarget::Given);
     }
 
     /// Solves for the velocity change after impulses `b`, joints held: J δ = 0.
@@ -119,7 +119,7 @@ impl System {
             self.g[rows.clone()].fill(0.0);
         }
         self.hold_kinematic();
-        self.solve_as(JointTarget::Nothing);
+        self.solve_as(JointTarget::Zero);
     }
 
     /// Kinematic bodies do not respond.

@@ -131,7 +131,7 @@ impl Trains {
         self.own.get(constraint).copied().unwrap_or(false)
     }
 
-    /// Lets q be 0 where the bodies were put; [`Trains::turned`] tells better where it is known.
+    /// Lets q be 0 where the bodies were put; [`Trains::set_angle`] sets it where it is known.
     pub fn start_at(&mut self, lane_blocks: &LaneBlocks) {
         for wheel in &mut self.wheels {
             match wheel.freedom {

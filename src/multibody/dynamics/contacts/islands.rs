@@ -8,7 +8,7 @@ use super::contact::Contact;
 use super::reduced_coordinates::{NodeBlock, ReducedCoordinates};
 use std::ops::Range;
 
-/// One island: its coordinates, and its touches in [`Islands::touches`].
+/// One island: its coordinates, and its contacts in [`Islands::contacts`].
 #[derive(Clone, Debug)]
 pub(super) struct Island {
     nodes: Range<usize>,
