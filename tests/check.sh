@@ -7,10 +7,12 @@ self=$(readlink -f "$0")
 cd "$(dirname "$self")/.."
 # Folder for the output and the exit code of each part.
 results=out/check
-everything=(format headless build exhibits suite live)
+everything=(format language headless build exhibits suite live)
 
 compiled() { local verb=$1; shift; RUSTC_WORKSPACE_WRAPPER=$PWD/tests/compile.sh cargo "$verb" --profile ci --workspace --locked "$@"; }
 format()   { cargo fmt --all -- --check; }
+# Names and sentences: no old word, no sentence that is too long.
+language() { tests/language.py; }
 # Without the kiosk: the two packages in which it is a feature.
 headless() { cargo clippy --profile ci -p soffio -p soffio-offline --locked --quiet --all-targets --no-default-features -- -D warnings; }
 # The program and the example `correlate`: everything that the parts need except tests.

@@ -102,7 +102,7 @@ pub(super) fn walk(a: &(impl Support + ?Sized), b: &(impl Support + ?Sized)) -> 
             next = combine(&simplex, &weights, n, |c| c.w);
         }
         if next.length_squared() >= distance2 {
-            // No progress that rounding can tell. The former simplex is the better answer.
+            // No progress beyond rounding. The former simplex is the better answer.
             (simplex, weights, n) = (before, weights_before, n_before);
             break;
         }
@@ -213,7 +213,7 @@ fn tetrahedron(w: &[DVec3; 4]) -> Face {
         if point(w, &within).length_squared() <= TOUCHING && within.2.iter().all(|&weight| weight >= 0.0) {
             return within;
         }
-        // A sliver whose sides rounding cannot tell: it is the weights that prove an inside.
+        // A sliver whose sides rounding cannot distinguish: the weights prove an inside.
         candidates = faces.map(|face| triangle(w, face));
         count = 4;
     }

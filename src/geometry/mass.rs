@@ -10,7 +10,7 @@
 //!
 //! (barycentric moments: `E[λᵢλⱼ] = (1+δᵢⱼ)/((k+1)(k+2))`). A wire is a sum of segments (k = 1), an open sheet of
 //! triangles (k = 2). A closed mesh is a signed sum of tetrahedra that share one apex (k = 3): by the divergence
-//! theorem what lies outside cancels, so any apex gives the volume integral. It is the same polynomial as in
+//! theorem the region outside cancels, so any apex gives the volume integral. It is the same polynomial as in
 //! Mirtich, "Fast and Accurate Computation of Polyhedral Mass Properties" (1996), and Eberly, "Polyhedral Mass
 //! Properties" (2002), in a form that needs no projection and serves the lower dimensions too.
 //!

@@ -30,7 +30,7 @@ pub struct Occluders {
     boxes: Boxes,
 }
 
-/// What stands in somebody's way: a part and a triangle of it; as a rule it still does the next time.
+/// The triangle that blocked a ray last; it usually blocks the next one too.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Hint(Option<(u32, u32)>);
 
@@ -44,7 +44,7 @@ impl Hint {
 
 /// A line of sight.
 #[derive(Clone, Copy, Debug)]
-pub struct Line {
+pub struct SightLine {
     /// World, m.
     pub origin: DVec3,
     /// World, unit.
@@ -53,7 +53,7 @@ pub struct Line {
     pub far: f64,
     /// A body of which it is known that it is not in the way.
     pub past: Option<usize>,
-    /// What is in the way, or was the last time.
+    /// The triangle that blocks the ray, or did the last time.
     pub hint: Hint,
 }
 
@@ -189,13 +189,13 @@ impl Occluders {
 
     /// Finds a triangle that blocks each line, if any does. The one that its hint names is asked first. Lines that lie side
     /// by side and follow each other cost least.
-    pub fn look(&self, lines: &mut [Line]) {
+    pub fn look(&self, lines: &mut [SightLine]) {
         for lines in lines.chunks_mut(TOGETHER) {
             self.look_together(lines);
         }
     }
 
-    fn look_together(&self, lines: &mut [Line]) {
+    fn look_together(&self, lines: &mut [SightLine]) {
         let mut beams = [Beam::default(); TOGETHER];
         // What has not been found to be blocked, as bits.
         let mut open = 0_u32;
@@ -244,7 +244,7 @@ impl Occluders {
 
     /// Does what the hint names block the line?
     #[inline]
-    fn still_blocks(&self, line: &Line) -> bool {
+    fn still_blocks(&self, line: &SightLine) -> bool {
         line.hint.0.is_some_and(|(part, triangle)| {
             let part = self.parts.get(part as usize);
             part.is_some_and(|part| {
@@ -256,7 +256,7 @@ impl Occluders {
     /// Is there a triangle between `origin` and the point `far` metres away along `direction` (unit, world)? The one
     /// that `hint` names is asked first, and the hint is set to the one that was found.
     pub fn block(&self, origin: DVec3, direction: DVec3, far: f64, hint: &Cell<Hint>) -> bool {
-        let mut line = [Line { origin, direction, far, past: None, hint: hint.get() }];
+        let mut line = [SightLine { origin, direction, far, past: None, hint: hint.get() }];
         self.look(&mut line);
         hint.set(line[0].hint);
         !line[0].hint.is_open()

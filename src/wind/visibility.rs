@@ -8,7 +8,7 @@ use std::cell::Cell;
 use super::ambient::WindOrigin;
 use super::patches::{Patch, PatchKind};
 use super::wind_surface::{PlacedPatch, WindSurface};
-use soffio_geometry::rays::{Hint, Line, Occluders};
+use soffio_geometry::rays::{Hint, Occluders, SightLine};
 use soffio_math::DVec3;
 
 /// Rays start this far off their own face, m.
@@ -59,7 +59,7 @@ impl WindSurface {
 impl FacingPatch {
     /// The ray from the patch to the wind's origin.
     #[inline(always)]
-    pub fn line(self) -> Line {
+    pub fn line(self) -> SightLine {
         let Self { start, origin, skipped_body } = self;
         let (direction, far) = match origin {
             WindOrigin::Point(place) => {
@@ -70,14 +70,14 @@ impl FacingPatch {
             }
             WindOrigin::Direction(direction) => (direction, MAX_DISTANCE),
         };
-        Line { origin: start, direction, far, past: skipped_body, hint: Hint::default() }
+        SightLine { origin: start, direction, far, past: skipped_body, hint: Hint::default() }
     }
 }
 
 /// A batch of rays from the patches of one surface to the origin of one wind.
 #[derive(Clone, Default)]
 pub(crate) struct VisibilityRays {
-    rays: Vec<Line>,
+    rays: Vec<SightLine>,
     /// Patch index of each ray.
     patches: Vec<usize>,
 }
@@ -90,7 +90,7 @@ impl VisibilityRays {
 
     /// Replaces the batch by these rays, each with the index of its patch.
     #[inline(always)]
-    pub fn set(&mut self, rays: impl Iterator<Item = (usize, Line)>) {
+    pub fn set(&mut self, rays: impl Iterator<Item = (usize, SightLine)>) {
         self.rays.clear();
         self.patches.clear();
         for (patch, ray) in rays {

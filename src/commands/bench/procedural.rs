@@ -160,9 +160,9 @@ fn drag(seconds: f64, method: PositionSolver) -> Drag {
         let still = vec![[0.0; 6]; dynamics.bodies.len()];
         row.passes = 0.0;
         for (frame, best) in times.iter_mut().enumerate() {
-            let grips = [GrabTarget { body, point, target: place(DT * (frame + 1) as f64) }];
+            let grabs = [GrabTarget { body, point, target: place(DT * (frame + 1) as f64) }];
             let began = ThreadTime::now();
-            black_box(mover.step(&mut dynamics, DT, &still, &grips, &mut impacts));
+            black_box(mover.step(&mut dynamics, DT, &still, &grabs, &mut impacts));
             *best = best.min(1e6 * began.elapsed().as_secs_f64());
             let report = mover.report();
             row.passes += f64::from(report.passes) / frames as f64;

@@ -115,15 +115,15 @@ fn reading(config: &Config) -> Finding {
 
 fn sound(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
     let mut audio = AudioIo::start(&config.audio, Synth::silent);
-    let mut heard = MicrophoneSamples::default();
+    let mut samples = MicrophoneSamples::default();
     let mut rate = None;
     let began = Instant::now();
     let mut opened = None;
     // Devices open on a thread of their own; the second of listening begins with the first samples.
     while opened.map_or(began.elapsed() < OPENING, |at: Instant| at.elapsed() < LISTEN) {
         std::thread::sleep(LOOK);
-        rate = audio.read_microphone(&mut heard).or(rate);
-        if opened.is_none() && !heard.samples.is_empty() {
+        rate = audio.read_microphone(&mut samples).or(rate);
+        if opened.is_none() && !samples.samples.is_empty() {
             opened = Some(Instant::now());
         }
     }
@@ -146,14 +146,14 @@ fn sound(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
         if config.audio.second_microphone_channel > 0 || status.capsules > 1 {
             findings.push(second_microphone(status.capsules).of_device());
         }
-        findings.push(judge_room(&heard.samples, rate).of_device());
+        findings.push(judge_room(&samples.samples, rate).of_device());
         if self_test {
             findings.push(audio_self_test(config, &mut audio).of_device());
         }
         if blow {
             let sensitivity_db = config.breath.sensitivity_db;
             let mut detector = BlowDetector::with_settings(rate, BlowSettings { sensitivity_db, ..Default::default() });
-            heard.share(0, 1, rate).feed(&mut detector);
+            samples.share(0, 1, rate).feed(&mut detector);
             findings.push(judge_blow(&listen(&mut audio, &mut detector), sensitivity_db).of_device());
         }
     }
@@ -221,14 +221,14 @@ fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate>
     let began = Instant::now();
     let meter = ProgressBar::new(METER)
         .with_style(ProgressStyle::with_template("[{bar:40}] {msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
-    let (mut steps, mut heard): (Vec<BlowEstimate>, _) = (Vec::new(), MicrophoneSamples::default());
+    let (mut steps, mut samples): (Vec<BlowEstimate>, _) = (Vec::new(), MicrophoneSamples::default());
     let (mut breaths, mut quiet_since, mut clips) = (0, Instant::now(), 0);
     // Until a moment after the last breath, or until nobody blows any more.
     while began.elapsed() < PATIENCE && (breaths < BREATHS || quiet_since.elapsed() < AFTER) {
         std::thread::sleep(LOOK);
-        heard.clear();
-        let Some(rate) = audio.read_microphone(&mut heard) else { break };
-        heard.share(0, 1, rate).feed(detector);
+        samples.clear();
+        let Some(rate) = audio.read_microphone(&mut samples) else { break };
+        samples.share(0, 1, rate).feed(detector);
         let (before, step) = (steps.last().copied().unwrap_or_default(), detector.estimate());
         if step.reason == Reason::Blow {
             breaths += usize::from(before.reason != Reason::Blow);

@@ -16,18 +16,18 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
     const WHAT: &str = "microphone level";
 
     // The first tenth is left out: streams begin with silence and clicks.
-    let heard = &samples[samples.len() / 10..];
-    let peak = heard.iter().fold(0.0_f32, |peak, sample| peak.max(sample.abs()));
+    let settled = &samples[samples.len() / 10..];
+    let peak = settled.iter().fold(0.0_f32, |peak, sample| peak.max(sample.abs()));
     let level = |part: &[f32]| {
         let power: f64 = part.iter().map(|&x| f64::from(x) * f64::from(x)).sum();
         amplitude_to_db((power / part.len().max(1) as f64).sqrt())
     };
-    let rms = level(heard);
-    let tenths: Vec<f64> = heard.chunks((heard.len() / 9).max(1)).map(level).collect();
+    let rms = level(settled);
+    let tenths: Vec<f64> = settled.chunks((settled.len() / 9).max(1)).map(level).collect();
     let creeps = tenths.windows(2).all(|pair| pair[1] >= pair[0])
         && tenths.first().zip(tenths.last()).is_some_and(|(first, last)| last - first > CREEPING_DB);
-    let railed = heard.iter().filter(|sample| sample.abs() >= 0.999).count();
-    let clipped = railed as f64 / heard.len().max(1) as f64;
+    let railed = settled.iter().filter(|sample| sample.abs() >= 0.999).count();
+    let clipped = railed as f64 / settled.len().max(1) as f64;
     let mut detector = BlowDetector::new(sample_rate);
     detector.push(samples, &[]);
     let floor = detector.estimate().floor_dbfs;
@@ -39,7 +39,7 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
             amplitude_to_db(f64::from(peak))
         ),
     };
-    if heard.len() < sample_rate as usize / 2 {
+    if settled.len() < sample_rate as usize / 2 {
         let found = format!("{} samples in a second that has {sample_rate}", samples.len());
         return Finding::new(WHAT, Health::Bad, found, "too few samples arrive: try another socket or another device");
     }

@@ -169,8 +169,8 @@ impl StaffPanel {
         let mut said = None;
         let scroll = egui::ScrollArea::vertical().id_salt(self.page as usize).auto_shrink(false);
         let bottom = if self.said.is_some() { 80.0 } else { 0.0 };
-        let room = (ui.available_height() - bottom).max(100.0);
-        scroll.max_height(room).show(ui, |ui| match self.page {
+        let available = (ui.available_height() - bottom).max(100.0);
+        scroll.max_height(available).show(ui, |ui| match self.page {
             Page::Status => status::show(ui, input, may, actions),
             Page::Exhibits => self.exhibits.show(ui, input, may, actions, &mut self.changes, &mut said),
             Page::Bodies => self.bodies.show(ui, input),

@@ -181,7 +181,7 @@ impl Screen {
     /// Prepares an exhibit for drawing, so that its first frames are not late.
     pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
         // Errors are reported when it is shown.
-        self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|work| (exhibit.clone(), work));
+        self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|prepared| (exhibit.clone(), prepared));
     }
 
     /// Shows another exhibit. If it cannot be drawn, the last scene stays.
@@ -190,11 +190,11 @@ impl Screen {
             return;
         }
         self.shown = exhibit.clone();
-        if let Some((_, work)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
-            return self.scene.show(work);
+        if let Some((_, prepared)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
+            return self.scene.show(prepared);
         }
         match self.scene.prepare(&self.gpu, exhibit) {
-            Ok(work) => self.scene.show(work),
+            Ok(prepared) => self.scene.show(prepared),
             Err(error) => tracing::error!("{} cannot be drawn: {error}", exhibit.id),
         }
     }

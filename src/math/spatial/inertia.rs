@@ -24,7 +24,7 @@ pub struct Sym3<T = f64> {
     pub o: V3<T>,
 }
 
-/// Mass of a body with what hangs on it.
+/// Mass of a body with its children.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Articulated<T = f64> {
     /// A.

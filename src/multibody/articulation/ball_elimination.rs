@@ -138,8 +138,8 @@ impl<T: Real> BallElimination<T> {
         let carried = parent.linear + parent.angular.cross(self.arms.parent);
         let lambda = self.effective_mass.mul(carried) - w;
         let u = g + carried;
-        let turn = self.inverse_inertia.mul(torque) - self.force_per_torque.transposed_mul(u);
-        (SpatialVector { linear: u - turn.cross(self.arms.own), angular: turn }, lambda)
+        let angular = self.inverse_inertia.mul(torque) - self.force_per_torque.transposed_mul(u);
+        (SpatialVector { linear: u - angular.cross(self.arms.own), angular: angular }, lambda)
     }
 }
 

@@ -1,10 +1,9 @@
 //! Broad phase by sort and sweep (D. Baraff 1992) over the boxes of swept colliders.
 //!
-//! Sort and sweep (D. Baraff 1992): the boxes of the bodies are sorted by their lower ends along the axis on which they
-//! spread most, and only boxes that overlap there are compared. The order of the last time is nearly that of the
-//! next, so insertion sort is linear. This is done with wider boxes, and again only when a body leaves its own: until then
-//! whatever meets is among the bodies whose wide boxes do. Bodies whose boxes overlap are then told apart collider by
-//! collider. What stands still has a box of its own for each collider.
+//! The boxes of the bodies are sorted by their lower ends along the axis on which they spread most, and only boxes that overlap
+//! there are compared. The order changes little from step to step, so insertion sort is linear. The boxes are enlarged, and sorted
+//! again only when a body leaves its enlarged box. Bodies whose boxes overlap are then compared collider by collider. Each
+//! static collider has a box of its own.
 
 use super::conservative_advancement::{BoxSize, CONTACT_MARGIN, Sweep};
 use super::pair_cache::{MIN_CACHED_PAIRS, PairCache};
@@ -39,8 +38,8 @@ impl Bounds {
     }
 
     /// Wider by this share of its greatest half extent on each side.
-    fn enlarge(&self, share: f64) -> Self {
-        let margin = DVec3::splat(0.5 * share * (self.high - self.low).max_element());
+    fn enlarge(&self, fraction: f64) -> Self {
+        let margin = DVec3::splat(0.5 * fraction * (self.high - self.low).max_element());
         Self { low: self.low - margin, high: self.high + margin }
     }
 
@@ -176,7 +175,7 @@ impl BroadPhase {
         }
     }
 
-    /// Lets bodies sleep: their sweeps stay what they will next be, and what sleeps does not meet what sleeps.
+    /// Lets bodies sleep: their sweeps stay as they are, and sleeping bodies form no pairs with each other.
     pub fn let_sleep(&mut self, asleep: &[bool]) {
         for (unit, asleep) in asleep.iter().enumerate().take(self.bodies.len()) {
             (self.asleep[unit], self.known[unit]) = (*asleep, false);

@@ -7,9 +7,9 @@
 //! −(Δx_a − Δx_b)·n + θ_a R_a + θ_b R_b        (per whole interval)
 //! ```
 //!
-//! with Δx the centres' ways, θ the turns and R the farthest point of a collider's core from its centre (its ball turns
+//! with Δx the centres' displacements, θ the rotations and R the farthest point of a collider's core from its centre (its ball turns
 //! into itself). Advancing by gap / (that bound) therefore never passes through, however thin the plates or fast the
-//! motion. A plane has no farthest point, but only what lies near the other body counts: for it R is how far the
+//! motion. A plane has no farthest point, but only its part near the other body counts: its R is how far the
 //! other can be from the plane's centre. At rest it adds nothing, and the bound is exact but for the other's turn.
 
 use super::manifold::ManifoldBuilder;
@@ -48,7 +48,7 @@ pub(super) struct BoxSize {
 }
 
 impl Sweep {
-    /// What stands still.
+    /// A static body.
     pub const STATIC: Self = Self {
         start: DVec3::ZERO,
         displacement: DVec3::ZERO,

@@ -3,7 +3,7 @@
 //!
 //! Along the contact normal n each core shows a point, an edge or a face (what leans by little counts as lying,
 //! `geometry::support`). A face is clipped by the side planes of the other (I. Sutherland and G. Hodgman 1974), an
-//! edge by a face or by a parallel edge; what is left are points of one surface, each with the point of the other
+//! edge by a face or by a parallel edge; the remainder are points of one surface, each with the point of the other
 //! straight across, and a gap along n between. Four are kept of more: the outermost of the deepest, the farthest from it, and
 //! the farthest off their line on either side.
 
@@ -129,7 +129,7 @@ impl ManifoldBuilder {
         }
         self.clipped.clear();
         self.clipped.extend_from_slice(other);
-        // Side planes along n, so that what is left has the face straight across.
+        // Side planes along n, so that the remainder has the face straight across.
         let up = n * face.dot(n).signum();
         for (k, &p) in own.iter().enumerate() {
             let q = own[(k + 1) % own.len()];

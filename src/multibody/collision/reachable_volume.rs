@@ -55,7 +55,7 @@ enum Volume {
     Ring { point: DVec3, axis: DVec3, along: [f64; 2], across: [f64; 2] },
 }
 
-/// Bounds of all colliders of a figure.
+/// Bounds of all colliders of a mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct ReachableVolumes {
     /// All bounds known of each collider; none where it may go anywhere.

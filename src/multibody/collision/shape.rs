@@ -15,7 +15,7 @@ pub struct Shape {
     pub core: Core,
     /// Radius of the ball, m.
     pub radius: f64,
-    /// The core's frame in the node frame of the body (the world for what stands still).
+    /// The core's frame in the node frame of the body (the world for static bodies).
     pub place: Pose,
 }
 
@@ -45,7 +45,7 @@ impl Shape {
         Self { core: Core::Box { half: half - ball }, radius: ball, place }
     }
 
-    /// All that lies below the plane through a point with a unit normal. Only for what stands still or is driven, as
+    /// All that lies below the plane through a point with a unit normal. Only for static and kinematic bodies, as
     /// it has no mass.
     pub fn plane(point: DVec3, normal: DVec3) -> Self {
         Self { core: Core::HalfSpace, radius: 0.0, place: Pose { rotation: along(normal), position: point } }

@@ -106,12 +106,12 @@ pub(super) struct ContactResponse {
 impl ContactResponse {
     pub fn new(dynamics: &Dynamics) -> Self {
         let sources = dynamics.contacts().source_count();
-        let room = if sources == 0 { 0 } else { MAX_CONTACTS };
+        let capacity = if sources == 0 { 0 } else { MAX_CONTACTS };
         let bodies = if sources == 0 { 0 } else { dynamics.bodies.len() };
         Self {
-            current: Vec::with_capacity(room),
-            later_contacts: Vec::with_capacity(room),
-            previous: Vec::with_capacity(room),
+            current: Vec::with_capacity(capacity),
+            later_contacts: Vec::with_capacity(capacity),
+            previous: Vec::with_capacity(capacity),
             force_columns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
             couple_columns: std::array::from_fn(|_| vec![[0.0; 6]; bodies]),
         }

@@ -2,9 +2,9 @@
 //!
 //! A joint may have any rows: points, planes, orientations, in any number. In this order
 //!
-//! 1. orientations: the least turn that closes them;
-//! 2. the first point or plane: compulsive rotation, of which the orientations leave only what turns about none of the
-//!    axes e that they hold (w − Σ (w·ê) ê), and compulsive translation; for a plane s = −C N;
+//! 1. orientations: the least rotation that closes them;
+//! 2. the first point or plane: compulsive rotation, without the component about the axes e that the
+//!    orientations hold (w − Σ (w·ê) ê), and compulsive translation; for a plane s = −C N;
 //! 3. all rows together, and the pair's violated limits (method 3.5: an angle beyond its limit is put back to it):
 //!    Newton steps on the body's six coordinates, of least kinetic energy,
 //!
@@ -93,8 +93,8 @@ impl BodyRows {
 
 impl Configuration<'_> {
     /// Moves a body by a displacement of its centre (m) and a rotation vector (rad).
-    pub fn displace(&mut self, body: usize, displacement: DVec3, turn: DVec3) {
-        self.bodies[body].displace(displacement, turn);
+    pub fn displace(&mut self, body: usize, displacement: DVec3, rotation: DVec3) {
+        self.bodies[body].displace(displacement, rotation);
         self.frames[body] = matrix(self.bodies[body].rotation);
     }
 
@@ -185,9 +185,9 @@ impl Configuration<'_> {
             return false;
         }
         let delta = rows.least(1.0 / self.bodies[own].properties.mass, &self.inertia(own).inverse());
-        let (displacement, turn) = (linear(&delta), angular(&delta));
-        let shorter = (MAX_ROTATION / turn.length()).min(1.0);
-        self.displace(own, shorter * displacement, shorter * turn);
+        let (displacement, rotation) = (linear(&delta), angular(&delta));
+        let shorter = (MAX_ROTATION / rotation.length()).min(1.0);
+        self.displace(own, shorter * displacement, shorter * rotation);
         true
     }
 
@@ -275,8 +275,8 @@ impl Configuration<'_> {
         let effective_inverse_mass: f64 = free
             .clone()
             .map(|(body, block)| {
-                let (displacement, turn) = pushed(self, body, &block);
-                displacement.dot(linear(&block)) + turn.dot(angular(&block))
+                let (displacement, rotation) = pushed(self, body, &block);
+                displacement.dot(linear(&block)) + rotation.dot(angular(&block))
             })
             .sum();
         if effective_inverse_mass <= 0.0 {
@@ -284,8 +284,8 @@ impl Configuration<'_> {
         }
         let lambda = change / effective_inverse_mass;
         for (body, block) in free {
-            let (displacement, turn) = pushed(self, body, &block);
-            self.displace(body, lambda * displacement, lambda * turn);
+            let (displacement, rotation) = pushed(self, body, &block);
+            self.displace(body, lambda * displacement, lambda * rotation);
         }
     }
 }

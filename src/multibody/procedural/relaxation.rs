@@ -78,18 +78,18 @@ impl Relaxation {
         for (frame, body) in self.frames.iter_mut().zip(bodies.iter()) {
             *frame = matrix(body.rotation);
         }
-        let mut reach = SolveReport::default();
+        let mut report = SolveReport::default();
         let (mut before, mut perturbed) = (f64::INFINITY, false);
         for sweep in 0..MAX_SWEEPS {
             let rotation_rule = control.filter(|_| sweep == 0).map_or(RotationRule::Aim, RotationRule::Compulsive);
             self.sweep(bodies, system, contacts, grabs, targets, rotation_rule);
             system.evaluate(bodies);
-            reach = SolveReport {
+            report = SolveReport {
                 passes: sweep as u32 + 1,
                 residual: system.largest_residual(targets),
                 grab_error: largest_grab_error(grabs, bodies),
             };
-            let open = reach.residual.max(reach.grab_error).max(self.limit_violation(contacts, bodies));
+            let open = report.residual.max(report.grab_error).max(self.limit_violation(contacts, bodies));
             if open <= POSITION_TOLERANCE {
                 break;
             }
@@ -105,31 +105,32 @@ impl Relaxation {
                 before = open;
             }
         }
-        reach
+        report
     }
 
     /// Separates a penetrating contact along its normal: two free bodies in inverse proportion to their masses. A
     /// violated limit is closed by its row.
     pub fn separate_directly(
         &mut self,
-        met: &SweptContact,
+        contact: &SweptContact,
         system: &System,
         contacts: &Contacts,
         bodies: &mut [RigidBody],
     ) {
-        let masses = met.bodies.map(|body| body.filter(|&b| !system.kinematic()[b]).map(|b| bodies[b].properties.mass));
-        if met.colliders.is_none() {
+        let masses =
+            contact.bodies.map(|body| body.filter(|&b| !system.kinematic()[b]).map(|b| bodies[b].properties.mass));
+        if contact.colliders.is_none() {
             let mut configuration = Configuration { bodies, frames: &mut self.frames, system, contacts, targets: &[] };
-            configuration.spread(met.ends.into_iter().flatten(), met.depth);
+            configuration.spread(contact.ends.into_iter().flatten(), contact.depth);
             return;
         }
         let weights = match masses {
             [Some(a), Some(b)] => [b / (a + b), -a / (a + b)],
             [a, b] => [f64::from(a.is_some()), -f64::from(b.is_some())],
         };
-        for (body, share) in met.bodies.into_iter().zip(weights) {
+        for (body, weight) in contact.bodies.into_iter().zip(weights) {
             if let Some(body) = body {
-                bodies[body].position += share * met.depth * met.normal;
+                bodies[body].position += weight * contact.depth * contact.normal;
             }
         }
     }
@@ -230,7 +231,7 @@ fn place_root(configuration: &mut Configuration, walks: &Walks, walk: &Walk, rot
     let visits = walks.visits(walk);
     let root = visits[0].body;
     let start = configuration.bodies[root];
-    let (mut displacement, mut turn, mut weight) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    let (mut displacement, mut rotation, mut weight) = (DVec3::ZERO, DVec3::ZERO, 0.0);
     for visit in &visits[1..] {
         let Some(joint) = visit.joint.map(|joint| &configuration.system.joints()[joint]) else { continue };
         if joint.link.a != root && joint.link.b != Some(root) {
@@ -244,20 +245,20 @@ fn place_root(configuration: &mut Configuration, walks: &Walks, walk: &Walk, rot
         }
         let there = configuration.bodies[root];
         displacement += visit.group_mass * (there.position - start.position);
-        turn += visit.group_mass * rotation_between(&start, &there);
+        rotation += visit.group_mass * rotation_between(&start, &there);
         weight += visit.group_mass;
         configuration.bodies[root] = start;
         configuration.frames[root] = matrix(start.rotation);
     }
     if weight > 0.0 {
-        configuration.displace(root, displacement / weight, turn / weight);
+        configuration.displace(root, displacement / weight, rotation / weight);
     }
 }
 
 /// Rotation vector from one state of a body to another, the shorter way, rad.
 fn rotation_between(from: &RigidBody, to: &RigidBody) -> DVec3 {
-    let turn = to.rotation * from.rotation.conjugate();
-    soffio_math::rotation_vector(if turn.w < 0.0 { -turn } else { turn })
+    let rotation = to.rotation * from.rotation.conjugate();
+    soffio_math::rotation_vector(if rotation.w < 0.0 { -rotation } else { rotation })
 }
 
 /// Closes a joint between two free bodies at their common point.

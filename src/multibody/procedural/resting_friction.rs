@@ -162,11 +162,11 @@ fn stop_rolling(
     let block = |m: &DMat3| DMat2::from_cols(m.x_axis.truncate(), m.y_axis.truncate());
     let (k, mixed, rotation) = (block(&mobility.point), block(&mobility.mixed), block(&mobility.rotation));
     let wanted = -velocity.rotation.truncate();
-    if let Some((already, reach)) = sticks {
+    if let Some((already, radius)) = sticks {
         let rigid = rotation - mixed.transpose() * (k.inverse() * mixed);
         let couple = (rigid.inverse() * wanted).clamp_length_max(limit);
         let force = -(k.inverse() * (mixed * couple));
-        if (already + force).length() <= reach {
+        if (already + force).length() <= radius {
             return (force, couple);
         }
     }

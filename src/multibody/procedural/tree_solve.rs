@@ -103,7 +103,7 @@ impl TreeSolve {
     /// linearisation.
     pub fn adjust(&mut self, step: &mut PositionStep, grabs: &[GrabTarget], lane_kernels: &LaneKernels) -> SolveReport {
         let (bodies, system, contacts) = (&mut *step.bodies, &mut *step.system, &*step.contacts);
-        let mut reach = SolveReport::default();
+        let mut report = SolveReport::default();
         let mut before = f64::INFINITY;
         let mut following_grabs = !grabs.is_empty();
         let mut free_passes = 0;
@@ -112,22 +112,22 @@ impl TreeSolve {
         system.evaluate_lane_blocks(bodies);
         system.include_open_rows();
         loop {
-            reach.residual = system.largest_residual(&self.targets);
-            reach.grab_error = largest_grab_error(grabs, bodies);
+            report.residual = system.largest_residual(&self.targets);
+            report.grab_error = largest_grab_error(grabs, bodies);
             // A grab that makes no progress is out of reach: from then on the joints take precedence.
-            if following_grabs && reach.passes % STALL_PASSES == 0 {
-                following_grabs = reach.grab_error > POSITION_TOLERANCE
-                    && reach.grab_error <= STALL_RATIO * before
-                    && reach.passes < MAX_GRAB_PASSES;
-                before = reach.grab_error;
+            if following_grabs && report.passes % STALL_PASSES == 0 {
+                following_grabs = report.grab_error > POSITION_TOLERANCE
+                    && report.grab_error <= STALL_RATIO * before
+                    && report.passes < MAX_GRAB_PASSES;
+                before = report.grab_error;
             }
             let passed = (0..contacts.bound_count()).fold(0.0, |most: f64, b| most.max(-contacts.bound_gap(b, bodies)));
-            let worst = reach.residual.max(passed).max(if following_grabs { reach.grab_error } else { 0.0 });
+            let worst = report.residual.max(passed).max(if following_grabs { report.grab_error } else { 0.0 });
             if worst <= POSITION_TOLERANCE || free_passes == MAX_FREE_PASSES {
-                return reach;
+                return report;
             }
             free_passes += usize::from(!following_grabs);
-            reach.passes += 1;
+            report.passes += 1;
             if rotated > FACTOR_REUSE_ROTATION || worst > FACTOR_REUSE_RATIO * open {
                 system.factor();
                 rotated = 0.0;

@@ -36,7 +36,7 @@ fn places(exhibit: &Arc<Exhibit>) -> ([f64; 2], [f64; 2]) {
     (on, [0.03, 0.9])
 }
 
-fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
+fn send(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
     static CHORDS: LazyLock<[Chord; 4]> =
         LazyLock::new(|| ["S", "M", "N", "O"].map(|key| Chord::new(true, true, false, key)));
     let [staff, mute, night, open] = &*CHORDS;
@@ -48,7 +48,7 @@ fn key(name: &str, pressed: bool, repeat: bool) -> Signal {
 }
 
 /// Controls of a visitor who presses once.
-fn told(visitor: &Visitor) -> Controls {
+fn controls(visitor: &Visitor) -> Controls {
     Controls {
         aim: visitor.aim(),
         presses: visitor.presses().collect(),
@@ -64,7 +64,7 @@ fn told(visitor: &Visitor) -> Controls {
 fn run(stage: &mut Stage, visitor: &mut Visitor, steps: usize) {
     for _ in 0..steps {
         visitor.lifts().into_iter().for_each(|lift| stage.lift(lift));
-        stage.step(&told(visitor), None);
+        stage.step(&controls(visitor), None);
     }
 }
 
@@ -78,23 +78,23 @@ fn one_short_press_by_finger_button_or_key_blows_and_another_one_ends_it() {
     ] {
         let mut stage = Stage::new(load("steel-fish"), Settings::default(), None, None);
         let mut visitor = Visitor::default();
-        tell(&mut visitor, Signal::Pointer([0.5, 0.5]));
-        tell(&mut visitor, Signal::Pointer([0.03, 0.9]));
+        send(&mut visitor, Signal::Pointer([0.5, 0.5]));
+        send(&mut visitor, Signal::Pointer([0.03, 0.9]));
         run(&mut stage, &mut visitor, 10);
         assert!(!stage.holds());
         // So short that both lie between two steps.
-        tell(&mut visitor, down.clone());
-        tell(&mut visitor, up.clone());
+        send(&mut visitor, down.clone());
+        send(&mut visitor, up.clone());
         run(&mut stage, &mut visitor, 480);
         assert!(stage.holds() && stage.snapshot().breath.speed > 5.0, "{down:?}: it blows for two seconds by itself");
         // As a finger that takes its time; a key repeats meanwhile.
-        tell(&mut visitor, down.clone());
+        send(&mut visitor, down.clone());
         run(&mut stage, &mut visitor, 120);
         if let Signal::Key(_) = down {
-            tell(&mut visitor, key("Space", true, true));
+            send(&mut visitor, key("Space", true, true));
         }
         run(&mut stage, &mut visitor, 20);
-        tell(&mut visitor, up);
+        send(&mut visitor, up);
         run(&mut stage, &mut visitor, 240);
         assert!(!stage.holds() && stage.snapshot().breath.speed == 0.0, "{down:?}: {}", stage.snapshot().breath.speed);
     }
@@ -105,13 +105,13 @@ fn a_breath_that_nobody_holds_goes_where_the_visitor_points_and_ends_when_he_lea
     let mut stage = Stage::new(load("steel-fish"), Settings::default(), None, Some(3.0));
     let mut visitor = Visitor::default();
     for x in [0.5, 0.2] {
-        tell(&mut visitor, Signal::Pointer([x, 0.5]));
+        send(&mut visitor, Signal::Pointer([x, 0.5]));
     }
-    tell(&mut visitor, key("Space", true, false));
-    tell(&mut visitor, key("Space", false, false));
+    send(&mut visitor, key("Space", true, false));
+    send(&mut visitor, key("Space", false, false));
     run(&mut stage, &mut visitor, 240);
     let left = stage.snapshot().breath.ring.center;
-    tell(&mut visitor, Signal::Pointer([0.8, 0.5]));
+    send(&mut visitor, Signal::Pointer([0.8, 0.5]));
     run(&mut stage, &mut visitor, 240);
     assert!(stage.holds() && stage.snapshot().breath.ring.center.distance(left) > 0.05, "it is steered");
     // A held switch would keep the visitor here for ever; this one does not.
@@ -162,16 +162,16 @@ fn a_swipe_beside_the_work_leads_on_and_a_pull_at_it_does_not() {
 fn fingers_tell_where_they_came_down_and_what_is_let_go_is_no_press() {
     let touch = |finger, x, phase| Signal::Touch { finger, at: [x, 0.5], phase };
     let mut visitor = Visitor::default();
-    tell(&mut visitor, touch(1, 0.2, Phase::Down));
-    tell(&mut visitor, touch(2, 0.9, Phase::Down));
-    tell(&mut visitor, touch(1, 0.4, Phase::Move));
-    tell(&mut visitor, touch(1, 0.5, Phase::Up));
+    send(&mut visitor, touch(1, 0.2, Phase::Down));
+    send(&mut visitor, touch(2, 0.9, Phase::Down));
+    send(&mut visitor, touch(1, 0.4, Phase::Move));
+    send(&mut visitor, touch(1, 0.5, Phase::Up));
     assert_eq!(visitor.lifts(), [Lift { id: 1, from: [0.2, 0.5], at: [0.5, 0.5] }]);
     assert!(visitor.lifts().is_empty(), "it is told once");
     assert_eq!(visitor.presses().count(), 1);
-    tell(&mut visitor, Signal::FocusLost);
+    send(&mut visitor, Signal::FocusLost);
     assert!(visitor.lifts().is_empty() && visitor.presses().count() == 0, "a lost window is nobody's press");
-    tell(&mut visitor, touch(7, 0.2, Phase::Up));
+    send(&mut visitor, touch(7, 0.2, Phase::Up));
     assert!(visitor.lifts().is_empty(), "what came down on a button comes up beside it");
 }
 
@@ -228,5 +228,5 @@ fn the_site_says_what_everybody_finds() {
     let accessibility = AccessibilitySettings::of(&config("[visit]\npress_once = true\nreduced_motion = true\n").visit);
     assert!(accessibility.press_once && accessibility.reduced_motion);
     let mut visitor = Visitor::default();
-    assert_eq!(tell(&mut visitor, key("R", true, false)), Some(Request::ReadAloud), "a key reads aloud");
+    assert_eq!(send(&mut visitor, key("R", true, false)), Some(Request::ReadAloud), "a key reads aloud");
 }

@@ -244,14 +244,14 @@ fn the_ear_does_not_take_the_kiosks_speech_for_a_breath() {
     let words = speech(&speaker);
     for gain in [0.2_f32, 0.7] {
         let mut detector = BlowDetector::new(RATE);
-        let mut room =
+        let mut recording =
             soffio_detector::generate::pink_noise(RATE, 90, words.samples.len() as f64 / f64::from(RATE), -60.0);
-        room.resize(words.samples.len(), 0.0);
+        recording.resize(words.samples.len(), 0.0);
         let mut windy = 0;
         for (i, played) in words.samples.chunks(200).enumerate() {
             let at = 200 * i;
             let heard: Vec<f32> = (at..at + played.len())
-                .map(|k| room[k] + gain * k.checked_sub(PATH).map_or(0.0, |past| words.samples[past]))
+                .map(|k| recording[k] + gain * k.checked_sub(PATH).map_or(0.0, |past| words.samples[past]))
                 .collect();
             detector.push(&heard, played);
             windy += usize::from(detector.estimate().speed > 0.0);

@@ -77,8 +77,8 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
             }
             None => {
                 let (name, value) = line.rsplit_once(' ').expect("a name and a number");
-                let told = names.last().expect("a head before the first sample");
-                assert!(name.starts_with(told) && value.parse::<f64>().is_ok(), "{line}");
+                let exported = names.last().expect("a head before the first sample");
+                assert!(name.starts_with(exported) && value.parse::<f64>().is_ok(), "{line}");
                 assert!(!value.contains("inf") && !value.contains("NaN"), "{line}");
             }
         }
@@ -95,20 +95,21 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
         foam_lasts: 5000,
         content: ("pendulum", ""),
     };
-    let mut told = text(&frame(RunStatus::default()), &numbers);
+    let mut exported = text(&frame(RunStatus::default()), &numbers);
     // These are exported only once they have a value.
-    told += "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
+    exported +=
+        "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
-    let mut asked = 0;
+    let mut queried = 0;
     for file in ["soffio.rules.yml", "soffio.grafana.json"] {
         let text = std::fs::read_to_string(folder.join(file)).expect(file);
         for (at, _) in text.match_indices("kiosk_") {
             let name: String = text[at..].chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect();
-            assert!(told.contains(&name), "{file} asks for {name}");
-            asked += 1;
+            assert!(exported.contains(&name), "{file} asks for {name}");
+            queried += 1;
         }
     }
-    assert!(asked > 15, "{asked}");
+    assert!(queried > 15, "{queried}");
     let board = std::fs::read_to_string(folder.join("soffio.grafana.json")).expect("the board");
     let board: serde_json::Value = serde_json::from_str(&board).expect("JSON");
     assert!(board["panels"].as_array().is_some_and(|panels| panels.len() >= 8));

@@ -138,13 +138,13 @@ fn the_page_and_every_touch_count_too() {
 }
 
 /// Times of the pictures, s, of a window that draws sixty a second, or fewer at rest, with these controls of the stage.
-fn pictures(stage: &mut Stage, steps: u64, told: impl Fn(u64) -> Controls) -> (Vec<f64>, Option<f64>) {
+fn pictures(stage: &mut Stage, steps: u64, controls: impl Fn(u64) -> Controls) -> (Vec<f64>, Option<f64>) {
     const REFRESH: f64 = 1.0 / 60.0;
     let (mut idle_detector, mut rest) = (IdleDetector::default(), IdleRendering::default());
     let (mut times, mut onset, mut next, mut was_still) = (Vec::new(), None, 0.0, false);
     for step in 0..steps {
         let time = step as f64 / STEPS_PER_SECOND as f64;
-        let controls = told(step);
+        let controls = controls(step);
         stage.step(&controls, None);
         idle_detector.update(stage.exhibit(), stage.snapshot(), stage.sight());
         if stage.snapshot().breath.speed > 0.0 {
@@ -169,15 +169,15 @@ fn a_still_work_is_shown_ten_times_a_second_and_a_breath_at_once() {
     for id in ["breaking-chain", "plates"] {
         let mut stage = Stage::new(load(id), Settings::default(), None, None);
         let blows = 10 * STEPS_PER_SECOND + 7;
-        let told = |step: u64| Controls { aspect: ASPECT, hold: step >= blows, ..Controls::default() };
+        let controls = |step: u64| Controls { aspect: ASPECT, hold: step >= blows, ..Controls::default() };
         let mut alone = Stage::new(load(id), Settings::default(), None, None);
         let mut brightest: f32 = 0.0;
         for step in 0..5 * STEPS_PER_SECOND {
-            alone.step(&told(step), None);
+            alone.step(&controls(step), None);
             brightest = alone.snapshot().dust_particles.iter().map(|mote| mote.brightness).fold(brightest, f32::max);
         }
         assert!(brightest < BRIGHT, "{id}: dust of still air is {brightest}");
-        let (times, onset) = pictures(&mut stage, 12 * STEPS_PER_SECOND, told);
+        let (times, onset) = pictures(&mut stage, 12 * STEPS_PER_SECOND, controls);
         let onset = onset.expect("it blows");
         let count = |from: f64, to: f64| times.iter().filter(|time| (from..to).contains(*time)).count();
         assert!((39..=41).contains(&count(5.0, 9.0)), "{id}: {} pictures in four seconds of rest", count(5.0, 9.0));

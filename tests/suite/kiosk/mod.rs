@@ -217,7 +217,7 @@ mod live {
         Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], open: &OTHERS[2], blow, read: "R", menu: false }
     }
 
-    fn tell(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
+    fn send(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
         visitor.signal(&signal, keys(&chord(), "Space"), false)
     }
 
@@ -229,7 +229,7 @@ mod live {
     #[test]
     fn plus_and_minus_turn_the_volume_and_two_chords_are_the_staffs() {
         let mut visitor = Visitor::default();
-        for (name, asked) in [
+        for (name, requested) in [
             ("Equal", Some(Request::Louder(1))),
             ("NumpadAdd", Some(Request::Louder(1))),
             ("AudioVolumeUp", Some(Request::Louder(1))),
@@ -238,14 +238,14 @@ mod live {
             ("M", None),
             ("N", None),
         ] {
-            assert_eq!(tell(&mut visitor, key(name, true)), asked, "{name}");
-            assert_eq!(tell(&mut visitor, key(name, false)), None, "{name}");
+            assert_eq!(send(&mut visitor, key(name, true)), requested, "{name}");
+            assert_eq!(send(&mut visitor, key(name, false)), None, "{name}");
         }
-        for (name, asked) in
+        for (name, requested) in
             [("M", Request::Mute), ("N", Request::Night), ("O", Request::Open), ("S", Request::ToggleStaff)]
         {
             let key = Key { name: name.into(), pressed: true, ctrl: true, alt: true, ..Key::default() };
-            assert_eq!(tell(&mut visitor, Signal::Key(key)), Some(asked), "{name}");
+            assert_eq!(send(&mut visitor, Signal::Key(key)), Some(requested), "{name}");
         }
         assert!(!holds(&visitor));
     }
@@ -253,15 +253,15 @@ mod live {
     #[test]
     fn a_pointer_aims_once_it_has_moved() {
         let mut visitor = Visitor::default();
-        tell(&mut visitor, Signal::Pointer([0.5, 0.5]));
-        tell(&mut visitor, Signal::Pointer([0.505, 0.5]));
+        send(&mut visitor, Signal::Pointer([0.5, 0.5]));
+        send(&mut visitor, Signal::Pointer([0.505, 0.5]));
         assert_eq!((visitor.aim(), visitor.activity()), (None, 0), "a pointer that lies there is nobody");
-        tell(&mut visitor, Signal::Pointer([0.6, 0.4]));
+        send(&mut visitor, Signal::Pointer([0.6, 0.4]));
         assert_eq!((visitor.aim(), visitor.activity()), (Some([0.6, 0.4]), 1));
-        tell(&mut visitor, Signal::Pointer([1.4, -0.1]));
+        send(&mut visitor, Signal::Pointer([1.4, -0.1]));
         assert_eq!(visitor.aim(), Some([1.0, 0.0]), "it aims inside the picture");
         visitor.leave();
-        tell(&mut visitor, Signal::Pointer([1.4, -0.1]));
+        send(&mut visitor, Signal::Pointer([1.4, -0.1]));
         assert_eq!(visitor.aim(), None, "the next visitor starts from the centre");
     }
 
@@ -274,12 +274,12 @@ mod live {
             (key("Space", true), key("Space", false)),
         ] {
             let mut visitor = Visitor::default();
-            tell(&mut visitor, down.clone());
+            send(&mut visitor, down.clone());
             assert!(holds(&visitor), "{down:?}");
-            tell(&mut visitor, up);
+            send(&mut visitor, up);
             assert!(!holds(&visitor), "{down:?}");
-            tell(&mut visitor, down);
-            tell(&mut visitor, Signal::FocusLost);
+            send(&mut visitor, down);
+            send(&mut visitor, Signal::FocusLost);
             assert!(!holds(&visitor), "a window that loses the focus hears no release");
         }
     }
@@ -299,7 +299,7 @@ mod live {
         assert_eq!(press("ArrowLeft", true), (true, [0.0, -1.0]), "left and right at once is neither");
         press("ArrowRight", false);
         assert_eq!(press("F9", false), (false, [-1.0, -1.0]));
-        tell(&mut visitor, Signal::FocusLost);
+        send(&mut visitor, Signal::FocusLost);
         assert_eq!(visitor.stick(), [0.0, 0.0], "a window that loses the focus hears no release");
     }
 
@@ -307,15 +307,15 @@ mod live {
     fn the_first_finger_aims_and_a_second_changes_nothing() {
         let mut visitor = Visitor::default();
         let touch = |finger, x, phase| Signal::Touch { finger, at: [x, 0.5], phase };
-        tell(&mut visitor, touch(1, 0.9, Phase::Move));
+        send(&mut visitor, touch(1, 0.9, Phase::Move));
         assert!(!holds(&visitor), "a finger that pressed a button and slides off it does not blow");
-        tell(&mut visitor, touch(1, 0.2, Phase::Down));
-        tell(&mut visitor, touch(2, 0.8, Phase::Down));
-        tell(&mut visitor, touch(2, 0.9, Phase::Up));
+        send(&mut visitor, touch(1, 0.2, Phase::Down));
+        send(&mut visitor, touch(2, 0.8, Phase::Down));
+        send(&mut visitor, touch(2, 0.9, Phase::Up));
         assert!(holds(&visitor));
         assert_eq!(visitor.aim(), Some([0.2, 0.5]));
-        tell(&mut visitor, touch(1, 0.3, Phase::Move));
-        tell(&mut visitor, touch(1, 0.3, Phase::Up));
+        send(&mut visitor, touch(1, 0.3, Phase::Move));
+        send(&mut visitor, touch(1, 0.3, Phase::Up));
         assert!(!holds(&visitor));
         assert_eq!(visitor.aim(), Some([0.3, 0.5]), "the aim stays where the finger left it");
     }
@@ -328,11 +328,11 @@ mod live {
             for held in 0..7 {
                 let (ctrl, alt, shift) = (held & 1 > 0, held & 2 > 0, held & 4 > 0);
                 let key = Key { name: name.into(), pressed: true, repeat: false, ctrl, alt, shift };
-                let asked = tell(&mut visitor, Signal::Key(key));
+                let requested = send(&mut visitor, Signal::Key(key));
                 let staff = name == "S" && ctrl && alt && !shift;
                 let page = name == "Tab" && !ctrl && !alt;
                 let may = if staff { Some(Request::ToggleStaff) } else { page.then_some(Request::Menu) };
-                assert_eq!(asked, may, "{name} {held:03b}");
+                assert_eq!(requested, may, "{name} {held:03b}");
             }
         }
         assert_eq!(
@@ -347,7 +347,7 @@ mod live {
         let chord = chord();
         let keys = Keys { menu: true, ..keys(&chord, "Space") };
         let mut visitor = Visitor::default();
-        for (name, asked) in [
+        for (name, requested) in [
             ("ArrowLeft", Request::MoveFocus([-1, 0])),
             ("ArrowDown", Request::MoveFocus([0, 1])),
             ("Enter", Request::PressFocused),
@@ -355,7 +355,7 @@ mod live {
             ("Tab", Request::Menu),
             ("PageDown", Request::Page(1)),
         ] {
-            assert_eq!(visitor.signal(&key(name, true), keys, false), Some(asked), "{name}");
+            assert_eq!(visitor.signal(&key(name, true), keys, false), Some(requested), "{name}");
             assert!(!holds(&visitor) && visitor.stick() == [0.0; 2], "{name}");
         }
     }
@@ -363,10 +363,10 @@ mod live {
     #[test]
     fn the_language_key_asks_once_and_all_keys_count_as_input() {
         let mut visitor = Visitor::default();
-        assert_eq!(tell(&mut visitor, key("L", true)), Some(Request::NextLanguage));
+        assert_eq!(send(&mut visitor, key("L", true)), Some(Request::NextLanguage));
         let repeat = Signal::Key(Key { name: "L".into(), pressed: true, repeat: true, ..Key::default() });
-        assert_eq!(tell(&mut visitor, repeat), None);
-        assert_eq!(tell(&mut visitor, key("B", true)), None);
+        assert_eq!(send(&mut visitor, repeat), None);
+        assert_eq!(send(&mut visitor, key("B", true)), None);
         assert_eq!(visitor.activity(), 3);
     }
 
@@ -598,7 +598,7 @@ mod ui_strings;
 #[cfg(feature = "kiosk")]
 mod venue_state;
 
-mod room {
+mod doctor {
     use soffio::commands::doctor::{Health, judge_blow, judge_room};
     use soffio_detector::generate::{self, BreathShape};
     use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};

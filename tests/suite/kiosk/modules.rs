@@ -12,15 +12,15 @@ fn files(folder: &Path) -> Vec<PathBuf> {
 fn a_room_uses_only_the_rooms_before_it() {
     let kiosk = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/kiosk");
     let text = std::fs::read_to_string(kiosk.join("lib.rs")).expect("readable");
-    let rooms: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
-    assert!(rooms.len() >= 7, "{rooms:?}");
-    for (place, room) in rooms.iter().enumerate() {
-        for file in files(&kiosk.join(room)) {
+    let modules: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';')).collect();
+    assert!(modules.len() >= 7, "{modules:?}");
+    for (place, module) in modules.iter().enumerate() {
+        for file in files(&kiosk.join(module)) {
             let text = std::fs::read_to_string(&file).expect("readable");
             for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
-                for later in &rooms[place + 1..] {
+                for later in &modules[place + 1..] {
                     let uses = line.contains(&format!("crate::{later}::"));
-                    assert!(!uses, "{}: {line}: {later} comes after {room}", file.display());
+                    assert!(!uses, "{}: {line}: {later} comes after {module}", file.display());
                 }
             }
         }

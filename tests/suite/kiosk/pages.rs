@@ -421,10 +421,10 @@ fn works_that_have_room_on_one_leaf_are_not_parted() {
         let em = (first.height() - 9.0 / 16.0 * first.width()) / 2.2;
         let rows = 1 + (works - 1).div_ceil(COLUMNS);
         let all = 2.0 * 2.2 * em + rows as f32 * (first.height() + em);
-        let room = bar - (first.top() - 2.2 * em);
-        if (all - room).abs() > ROUNDING {
+        let space = bar - (first.top() - 2.2 * em);
+        if (all - space).abs() > ROUNDING {
             let turns = buttons.iter().any(|(_, request)| *request == Request::Page(1));
-            assert_eq!(turns, all > room, "{works} works on {height} points: {all} of {room}");
+            assert_eq!(turns, all > space, "{works} works on {height} points: {all} of {space}");
             *(if turns { &mut parted } else { &mut whole }) += 1;
         }
     }

@@ -35,7 +35,7 @@ struct Way {
 const CLEAN: Way = Way { all_db: 0.0, high_db: 0.0, noise: QUIET };
 
 /// What the microphone hears of `sent`, in another night for another seed; the reflections are the room's and stay.
-fn room(sent: &[f32], way: Way, seed: u64) -> Vec<f32> {
+fn recorded(sent: &[f32], way: Way, seed: u64) -> Vec<f32> {
     let rate = f64::from(RATE);
     let length = (RECORDED_S * rate) as usize;
     let mut heard = vec![0.0f32; length];
@@ -65,7 +65,7 @@ fn room(sent: &[f32], way: Way, seed: u64) -> Vec<f32> {
 fn settled() -> SelfTestHistory {
     let mut history = SelfTestHistory::default();
     for night in 1..=REFERENCE_RUNS {
-        let heard = room(&sweep(RATE), CLEAN, night as u64);
+        let heard = recorded(&sweep(RATE), CLEAN, night as u64);
         let verdict = history.record(&Ok(measure_response(&heard, RATE)), String::new());
         assert_eq!(*verdict, Verdict::Learns(night));
     }
@@ -74,7 +74,7 @@ fn settled() -> SelfTestHistory {
 
 /// What it says of a night.
 fn night(way: Way) -> Verdict {
-    let heard = room(&sweep(RATE), way, 99);
+    let heard = recorded(&sweep(RATE), way, 99);
     settled().record(&Ok(measure_response(&heard, RATE)), String::new()).clone()
 }
 
@@ -120,7 +120,7 @@ fn somebody_who_cleans_beside_it_alarms_nobody() {
     }
     // Nor does it become what later nights are compared with.
     let mut history = SelfTestHistory::default();
-    let heard = room(&sweep(RATE), Way { noise: 1.0, ..CLEAN }, 3);
+    let heard = recorded(&sweep(RATE), Way { noise: 1.0, ..CLEAN }, 3);
     let verdict = history.record(&Ok(measure_response(&heard, RATE)), String::new()).clone();
     assert!(matches!(verdict, Verdict::Noisy | Verdict::Unheard), "{verdict:?}");
     assert!(history.clean_db.is_empty());
@@ -131,7 +131,7 @@ fn a_microphone_with_a_clock_of_its_own_hears_the_same() {
     let history = settled();
     let usual = history.clean_db[0];
     // Ninety millionths fast.
-    let heard = room(&sweep(RATE + 4), CLEAN, 5);
+    let heard = recorded(&sweep(RATE + 4), CLEAN, 5);
     let levels = measure_response(&heard, RATE).levels_db;
     assert!(levels.iter().zip(usual).all(|(a, b)| (a - b).abs() < NEAR_DB), "{levels:?} {usual:?}");
     // Nothing but numbers is kept of it.
@@ -188,15 +188,15 @@ fn it_chirps_once_a_day_and_waits_for_whoever_is_there() {
     let mut fleet = Fleet::start(StateStore::default(), PersistedState::default(), false, &Config::default());
     let day = |day| Day { year: 2027, month: 3, day, weekday: 0 };
     let at = Some(TimeOfDay::from_minutes(23 * 60 + 40));
-    let mut asked =
+    let mut requested =
         |days: [u8; 2], minutes| fleet.self_test_is_due(at, days.map(day), TimeOfDay::from_minutes(minutes), false);
-    assert!(!asked([2, 1], 23 * 60 + 39));
-    assert!(asked([2, 1], 23 * 60 + 40));
-    assert!(!asked([2, 1], 23 * 60 + 41), "once");
-    assert!(!asked([3, 2], 10), "the same hour, after midnight");
-    assert!(asked([3, 2], 23 * 60 + 50));
-    assert!(!asked([4, 3], 45), "too late");
-    assert!(asked([5, 4], 20), "the hour of the fourth, which nobody was there for");
+    assert!(!requested([2, 1], 23 * 60 + 39));
+    assert!(requested([2, 1], 23 * 60 + 40));
+    assert!(!requested([2, 1], 23 * 60 + 41), "once");
+    assert!(!requested([3, 2], 10), "the same hour, after midnight");
+    assert!(requested([3, 2], 23 * 60 + 50));
+    assert!(!requested([4, 3], 45), "too late");
+    assert!(requested([5, 4], 20), "the hour of the fourth, which nobody was there for");
     assert!(!fleet.self_test_is_due(None, [day(9), day(8)], TimeOfDay::from_minutes(0), false), "staff only");
 }
 

@@ -44,8 +44,8 @@ fn a_recording_on_the_stage_is_the_run_that_the_simulation_makes_of_it() {
     let controls = Controls { aspect: 1280.0 / 720.0, ..Controls::default() };
     for step in 0..3 * 240 {
         // What a microphone hears meanwhile must not matter.
-        let room = quiet(&mut random);
-        let microphone = Microphone { samples: &room, second: None, sample_rate: RATE, reference: &[] };
+        let noise = quiet(&mut random);
+        let microphone = Microphone { samples: &noise, second: None, sample_rate: RATE, reference: &[] };
         stage.step(&controls, Some(microphone));
         simulation.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
         assert_eq!(stage.state_hash(), simulation.state_hash(), "step {step}");
@@ -128,13 +128,13 @@ fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
     let mut mixed = Simulation::new(exhibit.clone(), Settings::default());
     let mut live = Stage::new(exhibit, Settings::default(), None, None);
     let (mut feed, mut mix) = (WavFeed::from(&recording), WavFeed::new(recording.samples.clone(), RATE));
-    let (mut recorder, mut ears) = input::open(RATE, 2, [1, 2]);
+    let (mut recorder, mut reader) = input::open(RATE, 2, [1, 2]);
     let controls = Controls { aspect: 16.0 / 9.0, ..Controls::default() };
     let (mut heard, mut fastest, mut steps) = (MicrophoneSamples::default(), 0.0_f64, 0);
     for block in frames.chunks_exact(2 * RATE as usize / 240) {
         recorder.record(block);
         heard.clear();
-        assert_eq!(ears.read(&mut heard), block.len() / 2);
+        assert_eq!(reader.read(&mut heard), block.len() / 2);
         live.step(&controls, Some(heard.share(0, 1, RATE)));
         offline.step(&StepInput { microphone: Some(feed.microphone()), ..StepInput::default() });
         mixed.step(&StepInput { microphone: Some(mix.microphone()), ..StepInput::default() });
@@ -166,10 +166,10 @@ fn what_was_heard_is_shared_among_steps_without_a_gap() {
 fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
     let mut health = MicrophoneHealth::default();
     let quiet = BlowEstimate { reason: Reason::Quiet, floor_dbfs: -60.0, ..BlowEstimate::default() };
-    let told = |health: &MicrophoneHealth| health.remedies().collect::<Vec<_>>().join("; ");
+    let reported = |health: &MicrophoneHealth| health.remedies().collect::<Vec<_>>().join("; ");
     let after = |health: &mut MicrophoneHealth, estimate: &BlowEstimate, steps: u64| {
         (0..steps).for_each(|_| health.update(true, estimate));
-        told(health)
+        reported(health)
     };
     assert_eq!(after(&mut health, &quiet, 100), "");
     // A breath may reach full scale; that is counted and no more.
@@ -178,8 +178,8 @@ fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
     after(&mut health, &quiet, 1);
     assert_eq!((health.clips, health.clips_without_breath), (1, 0));
     let shout = BlowEstimate { reason: Reason::Voiced, clipping: true, ..quiet };
-    assert!(after(&mut health, &shout, 3).contains("gain down"), "{}", told(&health));
-    assert!(after(&mut health, &quiet, 9 * 240).contains("gain down"), "{}", told(&health));
+    assert!(after(&mut health, &shout, 3).contains("gain down"), "{}", reported(&health));
+    assert!(after(&mut health, &quiet, 9 * 240).contains("gain down"), "{}", reported(&health));
     assert_eq!(after(&mut health, &quiet, 2 * 240), "");
     assert_eq!((health.clips, health.clips_without_breath), (2, 1));
     let adapts = BlowEstimate { gain_control: true, ..quiet };
@@ -190,7 +190,7 @@ fn staff_are_told_what_to_do_about_the_microphone_and_for_how_long() {
     assert!(after(&mut health, &muted, 2 * 240).contains("mixer") && health.is_silent());
     // Without a microphone there is nothing to mend about it.
     health.update(false, &BlowEstimate::default());
-    assert_eq!(told(&health), "");
+    assert_eq!(reported(&health), "");
 }
 
 #[test]
@@ -208,8 +208,8 @@ fn attract_mode_moves_the_sculpture_and_a_breath_at_the_microphone_ends_it() {
     };
     let (mut before, mut fastest, mut farthest) = ([Vec::new(), Vec::new()], 0.0_f64, [0.0_f64; 2]);
     for step in 0..(2 + 8) * 240 {
-        let room = quiet(&mut random);
-        stage.step(&controls, Some(Microphone { samples: &room, second: None, sample_rate: RATE, reference: &[] }));
+        let noise = quiet(&mut random);
+        stage.step(&controls, Some(Microphone { samples: &noise, second: None, sample_rate: RATE, reference: &[] }));
         fastest = fastest.max(stage.snapshot().breath.speed);
         alone.step(&controls, None);
         let now = [places(&stage), places(&alone)];
@@ -265,8 +265,8 @@ fn who_comes_amid_the_steel_fishs_invitation_finds_it_calm() {
 
     let mut stage = Stage::new(steel_fish(), Settings::default(), None, Some(IDLE_S as f64));
     let round = seconds(&mut stage, &controls, IDLE_S + 60);
-    let told = &round[IDLE_S..];
-    let most = |seconds: std::ops::Range<usize>| told[seconds].iter().copied().fold(0.0, f64::max);
+    let reported = &round[IDLE_S..];
+    let most = |seconds: std::ops::Range<usize>| reported[seconds].iter().copied().fold(0.0, f64::max);
     let (first, puff) = (most(4..13), most(38..43));
     assert!(first > SEEN * answer && puff > SEEN * answer, "both are seen: {first} and {puff} of {answer} m²");
     let later = most(13..60);
@@ -323,13 +323,13 @@ fn a_command_acts_in_one_step_even_where_several_are_due() {
     stage.command(Command::Reset);
     // A press that came and went between two wakings of the thread, which then does three steps.
     stage.lift(Lift { id: 1, from: [0.02, 0.02], at: [0.02, 0.02] });
-    let told: Vec<usize> = (0..3)
+    let reported: Vec<usize> = (0..3)
         .map(|_| {
             stage.step(&controls, None);
             stage.recorded_input().commands.len()
         })
         .collect();
-    assert_eq!(told, [2, 0, 0]);
+    assert_eq!(reported, [2, 0, 0]);
     assert!(stage.holds(), "one press begins a breath; taken twice it would have ended it");
     // Where nobody is heard a lift is over too, and is not taken later.
     stage.lift(Lift { id: 2, from: [0.02, 0.02], at: [0.02, 0.02] });

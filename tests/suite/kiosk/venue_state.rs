@@ -64,8 +64,8 @@ fn while_the_glass_is_cleaned_no_input_does_anything_and_then_all_do_again() {
     for time in [100.0, 130.0, 100.0 + CLEANING_S - 0.01] {
         for signal in signals() {
             for above in [OverlayCapture::default(), OverlayCapture { keys: true, pointer: true }] {
-                let asked = house.signal(time, &mut visitor, &signal, (chords.keys(), above), true);
-                assert_eq!(asked, None, "{signal:?} at {time} s");
+                let requested = house.signal(time, &mut visitor, &signal, (chords.keys(), above), true);
+                assert_eq!(requested, None, "{signal:?} at {time} s");
             }
         }
         assert!(visitor.presses().next().is_none() && !visitor.holds_key() && visitor.aim().is_none());
@@ -88,9 +88,9 @@ fn a_closed_house_hears_the_staffs_chords_only_and_is_opened_early_by_one() {
     let (chords, mut house) = (Chords::new(), closed());
     let mut visitor = Visitor::default();
     let own = (chords.keys(), OverlayCapture::default());
-    let asked: Vec<Request> =
+    let requested: Vec<Request> =
         signals().iter().filter_map(|signal| house.signal(1.0, &mut visitor, signal, own, true)).collect();
-    assert_eq!(asked, [Request::ToggleStaff, Request::Open, Request::Mute, Request::Night]);
+    assert_eq!(requested, [Request::ToggleStaff, Request::Open, Request::Mute, Request::Night]);
     assert!(visitor.presses().next().is_none() && !visitor.holds_key() && visitor.aim().is_none());
     house.open_early();
     assert!(house.is_open() && house.is_early() && house.accepts_input(1.0));

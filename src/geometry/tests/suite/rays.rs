@@ -1,7 +1,7 @@
 //! Lines of sight and first triangles by the hierarchies, against the same by every triangle.
 
 use soffio_geometry::TriangleMesh;
-use soffio_geometry::rays::{Hint, Line, Occluders};
+use soffio_geometry::rays::{Hint, Occluders, SightLine};
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI, Pose, rotation, sincos};
 
@@ -39,7 +39,7 @@ fn scatter(occluders: &mut Occluders, random: &mut Random, count: usize, spread:
 }
 
 /// Lines that begin close to each other and go to one place, or one way.
-fn bundle(random: &mut Random, spread: f64, hints: &[Hint]) -> Vec<Line> {
+fn bundle(random: &mut Random, spread: f64, hints: &[Hint]) -> Vec<SightLine> {
     let (middle, to) = (spread * any(random), spread * any(random));
     let axis = DVec3::AXES[(3.0 * random.unit()) as usize];
     let way = [any(random).normalize(), axis][usize::from(random.unit() < 0.3)];
@@ -54,7 +54,7 @@ fn bundle(random: &mut Random, spread: f64, hints: &[Hint]) -> Vec<Line> {
             let origin = middle + 0.05 * any(random);
             let (direction, far) =
                 if parallel { (way, 50.0) } else { ((to - origin).normalize(), to.distance(origin)) };
-            Line { origin, direction, far, past: None, hint: any_hint(random) }
+            SightLine { origin, direction, far, past: None, hint: any_hint(random) }
         })
         .collect()
 }
@@ -115,7 +115,8 @@ fn a_line_passes_what_it_is_told_to_pass() {
     occluders.refit(|body| Pose { position: DVec3::Z * body as f64, ..Pose::default() });
     // Down the z axis through part 1 at 1 m, part 0 at the origin, and part 2, which stands still there too.
     let look = |from: f64, far: f64, past: Option<usize>| {
-        let mut line = [Line { origin: DVec3::Z * from, direction: DVec3::NEG_Z, far, past, hint: Hint::default() }];
+        let mut line =
+            [SightLine { origin: DVec3::Z * from, direction: DVec3::NEG_Z, far, past, hint: Hint::default() }];
         occluders.look(&mut line);
         line[0].hint.is_open()
     };

@@ -77,8 +77,8 @@ impl Exhibits {
             ui.horizontal(|ui| {
                 for (sign, by) in [("\u{2191}", -1), ("\u{2193}", 1)] {
                     let to = row as isize + by;
-                    let room = (0..self.list.len() as isize).contains(&to);
-                    if ui.add_enabled(room, egui::Button::new(RichText::new(sign).monospace())).clicked() {
+                    let is_inside = (0..self.list.len() as isize).contains(&to);
+                    if ui.add_enabled(is_inside, egui::Button::new(RichText::new(sign).monospace())).clicked() {
                         change = Some(Change::Move(row, by));
                     }
                 }

@@ -39,10 +39,10 @@ pub struct Calibration {
 
 impl Calibration {
     /// Takes notice of what the detector says.
-    pub fn note(&mut self, heard: &BlowEstimate) {
-        let blows = heard.reason == Reason::Blow;
+    pub fn note(&mut self, estimate: &BlowEstimate) {
+        let blows = estimate.reason == Reason::Blow;
         if blows {
-            self.sum += heard.speed;
+            self.sum += estimate.speed;
             self.count += 1;
         }
         self.breaths += usize::from(self.blows && !blows);
@@ -71,7 +71,7 @@ impl Microphone {
         said: &mut Option<String>,
     ) {
         let (frame, texts) = (input.frame, input.texts);
-        let heard = &frame.current.breath.estimate;
+        let estimate = &frame.current.breath.estimate;
         if !frame.hears {
             let device = device(texts, &frame.load.audio.input);
             ui.colored_label(BAD, &*texts.format(TextId::StaffNoSignalFrom, &[("device", device.into())]));
@@ -81,24 +81,24 @@ impl Microphone {
             self.range = None;
             return;
         }
-        let level = heard.level_dbfs.max(QUIETEST_DBFS);
+        let level = estimate.level_dbfs.max(QUIETEST_DBFS);
         let [low, high] = self.range.unwrap_or([level, level]);
         let range = [low.min(level), high.max(level)];
         self.range = Some(range);
-        meter(ui, heard, range);
+        meter(ui, estimate, range);
         let health = &frame.load.microphone;
         Grid::new("microphone").num_columns(2).min_row_height(ROW).spacing([24.0, 4.0]).show(ui, |ui| {
-            row(ui, texts.get(TextId::StaffLevelNow), format!("{:6.1} dBFS", heard.level_dbfs), false);
+            row(ui, texts.get(TextId::StaffLevelNow), format!("{:6.1} dBFS", estimate.level_dbfs), false);
             let [low, high] = range.map(|level| format!("{level:6.1}").into());
             let between = texts.format(TextId::StaffFromTo, &[("low", low), ("high", high)]);
             row(ui, texts.get(TextId::StaffLevelRange), between, false);
-            let loud = heard.floor_dbfs > remedies::LOUD_DBFS;
-            row(ui, texts.get(TextId::StaffNoiseFloor), format!("{:6.1} dBFS", heard.floor_dbfs), loud);
+            let loud = estimate.floor_dbfs > remedies::LOUD_DBFS;
+            row(ui, texts.get(TextId::StaffNoiseFloor), format!("{:6.1} dBFS", estimate.floor_dbfs), loud);
             let clips = clips(texts, health);
             row(ui, texts.get(TextId::StaffClipping), clips, health.clips_lately());
-            row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, heard), heard.gain_control);
-            row(ui, texts.get(TextId::StaffDetector), decision(texts, heard), false);
-            row(ui, texts.get(TextId::StaffBreathAtLips), format!("{:5.2} m/s", heard.speed), false);
+            row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, estimate), estimate.gain_control);
+            row(ui, texts.get(TextId::StaffDetector), decision(texts, estimate), false);
+            row(ui, texts.get(TextId::StaffBreathAtLips), format!("{:5.2} m/s", estimate.speed), false);
             let capsules = frame.load.audio.capsules;
             row(
                 ui,
@@ -171,15 +171,15 @@ impl Microphone {
 }
 
 /// The level, the range it had, and a mark at the room's floor.
-fn meter(ui: &mut Ui, heard: &BlowEstimate, range: [f64; 2]) {
-    let (room, _) = ui.allocate_exact_size(vec2(ui.available_width(), METER), Sense::hover());
-    let place = |dbfs: f64| room.left() + room.width() * (1.0 - dbfs / QUIETEST_DBFS).clamp(0.0, 1.0) as f32;
+fn meter(ui: &mut Ui, estimate: &BlowEstimate, range: [f64; 2]) {
+    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), METER), Sense::hover());
+    let place = |dbfs: f64| area.left() + area.width() * (1.0 - dbfs / QUIETEST_DBFS).clamp(0.0, 1.0) as f32;
     let painter = ui.painter();
-    painter.rect_filled(room, 2.0, Color32::from_gray(215));
-    let had = room.with_min_x(place(range[0])).with_max_x(place(range[1]));
+    painter.rect_filled(area, 2.0, Color32::from_gray(215));
+    let had = area.with_min_x(place(range[0])).with_max_x(place(range[1]));
     painter.rect_filled(had, 0.0, Color32::from_gray(185));
-    let level = room.with_max_x(place(heard.level_dbfs)).shrink2(vec2(0.0, 4.0));
-    painter.rect_filled(level, 2.0, if heard.clipping { BAD } else { GOOD });
-    let floor = pos2(place(heard.floor_dbfs), room.top());
-    painter.rect_filled(egui::Rect::from_min_size(floor, vec2(2.0, room.height())), 0.0, Color32::BLACK);
+    let level = area.with_max_x(place(estimate.level_dbfs)).shrink2(vec2(0.0, 4.0));
+    painter.rect_filled(level, 2.0, if estimate.clipping { BAD } else { GOOD });
+    let floor = pos2(place(estimate.floor_dbfs), area.top());
+    painter.rect_filled(egui::Rect::from_min_size(floor, vec2(2.0, area.height())), 0.0, Color32::BLACK);
 }

@@ -92,7 +92,7 @@ fn venue(ui: &mut Ui, input: &PanelInput) {
 fn microphone(ui: &mut Ui, input: &PanelInput) {
     let (frame, texts) = (input.frame, input.texts);
     let breath = &frame.current.breath;
-    let heard = &breath.estimate;
+    let estimate = &breath.estimate;
     let (audio, microphone) = (&frame.load.audio, &frame.load.microphone);
     let missing = !frame.hears && audio.input != DeviceState::Closed;
     let mut input_device = device(texts, &audio.input);
@@ -102,11 +102,11 @@ fn microphone(ui: &mut Ui, input: &PanelInput) {
     }
     row(ui, texts.get(TextId::StaffMicrophone), input_device, missing);
     if frame.hears {
-        let [level, floor] = [heard.level_dbfs, heard.floor_dbfs].map(|level| format!("{level:6.1}").into());
+        let [level, floor] = [estimate.level_dbfs, estimate.floor_dbfs].map(|level| format!("{level:6.1}").into());
         let levels = texts.format(TextId::StaffLevelFloor, &[("level", level), ("floor", floor)]);
-        row(ui, texts.get(TextId::StaffLevel), levels, heard.clipping);
+        row(ui, texts.get(TextId::StaffLevel), levels, estimate.clipping);
     } else {
-        row(ui, texts.get(TextId::StaffLevel), texts.get(TextId::StaffNoSignal), heard.clipping);
+        row(ui, texts.get(TextId::StaffLevel), texts.get(TextId::StaffNoSignal), estimate.clipping);
     }
     row(ui, texts.get(TextId::StaffClipping), clips(texts, microphone), microphone.clips_lately());
     let foam = input.persisted.self_test.foam_breaths(input.persisted.counters.breaths());
@@ -124,9 +124,9 @@ fn microphone(ui: &mut Ui, input: &PanelInput) {
         }
         None => row(ui, texts.get(TextId::StaffSelfTest), texts.get(TextId::StaffSelfTestNone), false),
     }
-    row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, heard), heard.gain_control);
-    row(ui, texts.get(TextId::StaffDetector), decision(texts, heard), false);
-    let [detected, blown] = [heard.speed, breath.speed].map(|speed| format!("{speed:5.2}").into());
+    row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, estimate), estimate.gain_control);
+    row(ui, texts.get(TextId::StaffDetector), decision(texts, estimate), false);
+    let [detected, blown] = [estimate.speed, breath.speed].map(|speed| format!("{speed:5.2}").into());
     let speeds = texts.format(TextId::StaffBreathSpeeds, &[("detected", detected), ("blown", blown)]);
     row(ui, texts.get(TextId::StaffBreath), speeds, false);
 }

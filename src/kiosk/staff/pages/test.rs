@@ -108,17 +108,17 @@ impl Test {
             });
         });
         ui.heading(texts.get(TextId::StaffPageMicrophone));
-        let heard = &input.frame.current.breath.estimate;
+        let estimate = &input.frame.current.breath.estimate;
         egui::Grid::new("decision").num_columns(2).min_row_height(ROW).show(ui, |ui| {
-            let decided = match (input.frame.hears, heard.speed > 0.0) {
+            let decided = match (input.frame.hears, estimate.speed > 0.0) {
                 (false, _) => TextId::StaffNoSignal,
                 (true, false) => TextId::StaffDecisionNone,
                 (true, true) => TextId::StaffDecisionBreath,
             };
             row(ui, texts.get(TextId::StaffDecision), texts.get(decided), !input.frame.hears);
-            row(ui, texts.get(TextId::StaffBecause), texts.get(reason(heard.reason)), false);
-            row(ui, texts.get(TextId::StaffConfidence), format!("{:.2}", heard.confidence), false);
-            row(ui, texts.get(TextId::StaffSpeed), format!("{:.2} m/s", heard.speed), false);
+            row(ui, texts.get(TextId::StaffBecause), texts.get(reason(estimate.reason)), false);
+            row(ui, texts.get(TextId::StaffConfidence), format!("{:.2}", estimate.confidence), false);
+            row(ui, texts.get(TextId::StaffSpeed), format!("{:.2} m/s", estimate.speed), false);
         });
     }
 

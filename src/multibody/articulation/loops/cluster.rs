@@ -51,7 +51,7 @@ pub(super) struct Cluster {
     /// A⁻¹ by bodies; does nothing hang on each?
     pub inverses: Vec<Mat6>,
     pub leaves: Vec<bool>,
-    /// J on what is given, by parts and rows.
+    /// J on bodies with given accelerations, by parts and rows.
     pub j: Vec<Vec6>,
     /// W by parts, column by column: six for each row.
     pub w: Vec<f64>,

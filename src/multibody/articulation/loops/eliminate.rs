@@ -148,7 +148,7 @@ impl Cluster {
         }
     }
 
-    /// The way up: what the rows push on the top into `b`. `a` has the accelerations of what is given.
+    /// The way up: what the rows push on the top into `b`. `a` has the given accelerations.
     #[inline(always)]
     pub fn inward(&mut self, b: &mut [Vec6], g: &[f64], a: &[Vec6]) {
         let Self { nodes, factor, j, w, x, .. } = self;

@@ -10,7 +10,7 @@
 //! A ← A − Pᵀ D⁻¹ P        among the later nodes
 //! ```
 //!
-//! After all nodes comes the *rim*: six columns B beside A, that are not eliminated. What is left of them is −Bᵀ A⁻¹ B, and of
+//! After all nodes comes the *rim*: six columns B beside A, that are not eliminated. Their Schur complement is −Bᵀ A⁻¹ B, and of
 //! a right-hand side d there −Bᵀ A⁻¹ d.
 //!
 //! A pivot that is a tiny share of what its row had before says that the row repeats others: it gets 0, so that its

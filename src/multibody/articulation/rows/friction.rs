@@ -7,7 +7,7 @@ use super::JacobianRow;
 use soffio_math::DVec3;
 use soffio_math::spatial::vec6;
 
-/// Slowest rotation that friction tells from rest, rad/s: below it a pivot creeps by at most this.
+/// Slowest rotation that friction distinguishes from rest, rad/s: below it a pivot creeps by at most this.
 const STICTION_RATE: f64 = 1e-7;
 /// Smallest friction coefficient c of a soft row, N m s: keeps an unloaded pivot's compliance finite.
 const LEAST_VISCOSITY: f64 = 1e-15;

@@ -193,8 +193,8 @@ impl System {
     /// Whether a constraint is closed, or nearly enough for projection.
     pub fn is_closed(&self, constraint: usize) -> bool {
         let apart = |state: &RowState| state.constraint == constraint && state.stabilised;
-        let held = self.rows.joints.iter().flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard]);
-        !held.chain(self.rows.couplings.iter().map(|c| &self.rows.states[c.at])).any(apart)
+        let active = self.rows.joints.iter().flat_map(|joint| &self.rows.states[joint.at..joint.at + joint.hard]);
+        !active.chain(self.rows.couplings.iter().map(|c| &self.rows.states[c.at])).any(apart)
     }
 
     /// Load of a constraint in the last solve. The stabiliser's pull on open rows is no load.

@@ -38,12 +38,12 @@ impl Trains {
         };
         let free: Vec<Option<Freedom>> = (0..bodies.len())
             .map(|body| {
-                let held = holds(body);
-                let plain = held.iter().all(|&c| always(&constraints[c]));
+                let constraints_of_body = holds(body);
+                let plain = constraints_of_body.iter().all(|&c| always(&constraints[c]));
                 if kinematic[body] || !plain || carries(body) {
                     None
                 } else {
-                    freedom(body, &held, bodies, constraints)
+                    freedom(body, &constraints_of_body, bodies, constraints)
                 }
             })
             .collect();
@@ -131,7 +131,7 @@ impl Geared {
             }
             groups.push(group);
         }
-        // What turns alone is one too: it costs a division as well.
+        // A wheel that turns alone is one too: it costs a division as well.
         if !groups.is_empty() {
             let alone = (0..bodies.len()).filter(|&body| free[body].is_some() && !visited[body]);
             groups.extend(alone.map(|body| vec![(body, 1.0)]));
@@ -169,14 +169,19 @@ fn always(constraint: &Constraint) -> bool {
 }
 
 /// The one twist that these constraints leave a body on the world: those of a hinge, or of a slider.
-fn freedom(body: usize, held: &[usize], bodies: &[RigidBody], constraints: &[Constraint]) -> Option<Freedom> {
+fn freedom(
+    body: usize,
+    constraints_of_body: &[usize],
+    bodies: &[RigidBody],
+    constraints: &[Constraint],
+) -> Option<Freedom> {
     let state = &bodies[body];
     let frame = DMat3::from_quat(state.rotation);
     let point = |anchor: &Anchor| anchor.body.map_or(anchor.point, |_| state.pose().point(anchor.point));
     let direction = |axis: &Axis| axis.body.map_or(axis.direction, |_| frame * axis.direction);
     let is_zero = |function: &Function| matches!(function, Function::Constant(value) if *value == 0.0);
     let (mut points, mut planes, mut own, mut across) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for &index in held {
+    for &index in constraints_of_body {
         match &constraints[index].kind {
             ConstraintKind::PointToPoint { a, b } => {
                 let (p, q) = (point(a), point(b));
@@ -232,8 +237,8 @@ fn tie(constraint: &Constraint, free: &[Option<Freedom>], bodies: &[RigidBody]) 
         }
         Measure::Displacement { point, direction } if direction.body.is_none() => {
             let body = point.body?;
-            let Some(Freedom::Prismatic(way)) = free[body] else { return None };
-            Some((body, term.coefficient * direction.direction.dot(way)))
+            let Some(Freedom::Prismatic(axis)) = free[body] else { return None };
+            Some((body, term.coefficient * direction.direction.dot(axis)))
         }
         _ => None,
     };

@@ -203,11 +203,11 @@ impl Trains {
 
     /// The bodies' answer to `b` into `a`, as if there were nothing outside the trains.
     #[inline(always)]
-    pub fn solve(&mut self, asked: SolveKind, lane_blocks: &LaneBlocks, b: &[Vec6], a: &mut [Vec6]) {
+    pub fn solve(&mut self, kind: SolveKind, lane_blocks: &LaneBlocks, b: &[Vec6], a: &mut [Vec6]) {
         if self.is_empty() {
             return;
         }
-        if asked == SolveKind::Place {
+        if kind == SolveKind::Place {
             self.count_revolutions(lane_blocks);
         }
         for train in &mut self.trains {
@@ -216,7 +216,7 @@ impl Trains {
         for &index in &self.awake_wheels {
             let wheel = &mut self.wheels[index];
             let train = &mut self.trains[wheel.train];
-            match asked {
+            match kind {
                 SolveKind::Impulse => wheel.prescribed = [0.0; 6],
                 SolveKind::Acceleration => wheel.prescribed = wheel.centripetal(lane_blocks),
                 SolveKind::Velocity => {
@@ -229,7 +229,7 @@ impl Trains {
                 }
             }
             let push = &b[wheel.body];
-            let along = match asked {
+            let along = match kind {
                 SolveKind::Impulse | SolveKind::Acceleration => dot(&wheel.twist, push),
                 SolveKind::Velocity | SolveKind::Place => {
                     dot(&wheel.twist, &wheel.remaining_impulse(push, lane_blocks))

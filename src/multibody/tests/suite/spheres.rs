@@ -1,5 +1,5 @@
-//! Balls: sliding, rolling and what lies between, rolling resistance, spin, hits on balls and cushions; by the laws and by
-//! places, against closed forms.
+//! Balls: sliding, rolling and both at once, rolling resistance, spin, impacts on balls and cushions; by constrained dynamics and
+//! position-based motion, against closed forms.
 //!
 //! Symbols: r radius, k = I/(m r²), μ friction, b and d the lengths of rolling and spin resistance, u the slip of the
 //! contact point. Under Coulomb's law û stands still, so that v̇ = −μ g û, u̇ = −(1 + 1/k) μ g û until u = 0.
@@ -19,17 +19,17 @@ const MASS: f64 = 0.1;
 /// Solid, and hollow.
 const SOLID: f64 = 0.4;
 const HOLLOW: f64 = 2.0 / 3.0;
-/// What rests stands within a layer of 2 µm, in the middle of which the laws put the contact point: half of it over the
+/// A resting ball stands within a layer of 2 µm; constrained dynamics puts the contact point in its middle: half of it over the
 /// radius, as a share of speeds and forces.
 const LAYER: f64 = 5e-5;
 /// What places leave after some hundred steps of rounding, m/s.
 const ROUNDING: f64 = 1e-9;
 
-/// What moves the balls.
+/// The motion of the balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mover {
     Dynamics,
-    /// By places with Coulomb's law, and with the source's.
+    /// In position-based motion with Coulomb's law, and with the source's.
     PositionBased,
     Source,
 }
@@ -43,19 +43,19 @@ struct Table {
     dynamics: Dynamics,
     procedural: Procedural,
     impacts: Vec<Impact>,
-    still: Vec<[f64; 6]>,
+    static_wrenches: Vec<[f64; 6]>,
 }
 
 fn ball(k: f64, position: DVec3) -> RigidBody {
     body(MASS, DVec3::splat(k * MASS * R * R), position)
 }
 
-fn still(shape: Shape) -> Collider {
+fn static_wrenches(shape: Shape) -> Collider {
     Collider { body: None, shape, material: 0, node: String::new() }
 }
 
 fn floor() -> Collider {
-    still(Shape::plane(DVec3::ZERO, DVec3::Y))
+    static_wrenches(Shape::plane(DVec3::ZERO, DVec3::Y))
 }
 
 fn surfaces(friction: f64, restitution: f64, rolling: f64, spinning: f64) -> Extras {
@@ -75,7 +75,7 @@ impl Table {
             procedural: Procedural::new(&dynamics, Settings { method, ..Settings::default() }),
             dynamics,
             impacts: Vec::with_capacity(1000),
-            still: vec![[0.0; 6]; world.bodies.len()],
+            static_wrenches: vec![[0.0; 6]; world.bodies.len()],
         }
     }
 
@@ -93,10 +93,10 @@ impl Table {
     }
 
     fn step(&mut self) {
-        let Self { dynamics, impacts, still, .. } = self;
+        let Self { dynamics, impacts, static_wrenches, .. } = self;
         let bad = match self.mover {
-            Mover::Dynamics => dynamics.step(DT, still, impacts),
-            _ => self.procedural.step(dynamics, DT, still, &[], impacts),
+            Mover::Dynamics => dynamics.step(DT, static_wrenches, impacts),
+            _ => self.procedural.step(dynamics, DT, static_wrenches, &[], impacts),
         };
         assert_eq!(bad, None, "bad numbers");
     }
@@ -154,10 +154,14 @@ fn a_ball_slides_then_rolls_as_coulombs_law_says() {
                 }
                 let [v, w, x] = worst;
                 println!("{mover:?}, {name}, k {k:.2}: off by {v:.1e}, {w:.1e} m/s, {x:.1e} m");
-                // By places v goes before x: off by ½ Δt Δv.
+                // In position-based motion v goes before x: off by ½ Δt Δv.
                 let late = 0.5 * DT * (slip(v0, w0) * (k / (1.0 + k))).length();
-                let (speed, way) = if mover == Mover::Dynamics { (LAYER * 3.0, WAY) } else { (ROUNDING, 1.01 * late) };
-                assert!(worst[0] < speed && worst[1] < speed && worst[2] < way, "{mover:?}, {name}: {worst:?}");
+                let (speed, displacement) =
+                    if mover == Mover::Dynamics { (LAYER * 3.0, WAY) } else { (ROUNDING, 1.01 * late) };
+                assert!(
+                    worst[0] < speed && worst[1] < speed && worst[2] < displacement,
+                    "{mover:?}, {name}: {worst:?}"
+                );
                 // What friction took is k/(1 + k) of the slip's energy.
                 let lost = energy - table.dynamics.energy();
                 let u = slip(v0, w0).length();
@@ -254,23 +258,27 @@ fn a_rolling_ball_slows_down_stops_and_stays() {
                 worst = worst.max((ball.velocity.x - v).abs()).max((ball.angular_velocity.z * R + v).abs());
             }
             let ball = table.ball();
-            let way = 0.5 * v0 * v0 / rate;
-            println!("{mover:?}, k {k:.2}: off by {worst:.1e} m/s, way {} for {way}", ball.position.x);
+            let displacement = 0.5 * v0 * v0 / rate;
+            println!("{mover:?}, k {k:.2}: off by {worst:.1e} m/s, way {} for {displacement}", ball.position.x);
             // At the end of the step in which it stops all is known again.
             let speed = if mover == Mover::Dynamics { 2.0 * LAYER * v0 } else { ROUNDING };
             assert!(worst < speed, "{mover:?}: {worst} m/s");
-            // By places v goes before x: half a step's way.
+            // In position-based motion v goes before x: half a step's way.
             let half_step = if mover == Mover::Dynamics { 0.0 } else { v0 * DT };
-            assert!((ball.position.x - way).abs() < half_step + 3.0 * LAYER * way, "{mover:?}: {}", ball.position.x);
+            assert!(
+                (ball.position.x - displacement).abs() < half_step + 3.0 * LAYER * displacement,
+                "{mover:?}: {}",
+                ball.position.x
+            );
             if mover == Mover::Dynamics {
                 let ledger = energy - table.dynamics.energy() + table.dynamics.contact_work() - work;
                 assert!(ledger.abs() < 1e-5 * energy, "{ledger} J of {energy} J");
             }
             let stopped = ball;
             table.run(2400);
-            let moved = table.ball().position.distance(stopped.position);
+            let travelled = table.ball().position.distance(stopped.position);
             let turned = table.ball().rotation.angle_between(stopped.rotation);
-            assert!(moved < 1e-8 && turned < 1e-6, "{mover:?}: then it moved by {moved} m, {turned} rad");
+            assert!(travelled < 1e-8 && turned < 1e-6, "{mover:?}: then it moved by {travelled} m, {turned} rad");
         }
     }
 }
@@ -312,7 +320,7 @@ fn on_an_incline_resistance_holds_a_ball_or_slows_it() {
             println!("{mover:?}: {found} m/s² for {expected}");
             if expected == 0.0 {
                 assert!(after.velocity.length() < 1e-9, "{mover:?}: {}", after.velocity);
-                // By places what lies still gives way by a step's fall each step.
+                // In position-based motion a resting ball yields by a step's fall each step.
                 let creeps = if mover == Mover::Dynamics { 1e-8 } else { 240.0 * G * sin * DT * DT };
                 assert!(after.position.distance(before.position) <= creeps, "{mover:?}: creeps");
             } else {
@@ -388,9 +396,9 @@ fn rubbing_balls_throw_each_other_and_keep_what_they_must() {
         table.run(12);
         let (q, m) = momenta(&table.dynamics.bodies);
         assert!((p - q).length() < 1e-14, "{mover:?}: {p} {q}");
-        // By places the hit is answered at the step's end.
-        let turn = if mover == Mover::Dynamics { 1e-9 } else { 1e-5 };
-        assert!((l - m).length() < turn, "{mover:?}: {l} {m}");
+        // In position-based motion the hit is answered at the step's end.
+        let tolerance = if mover == Mover::Dynamics { 1e-9 } else { 1e-5 };
+        assert!((l - m).length() < tolerance, "{mover:?}: {l} {m}");
         let object = table.dynamics.bodies[1].velocity;
         // It slides throughout: Coulomb's throw of tan⁻¹ μ.
         assert!((object.z.abs() / object.x - 0.06).abs() < 1e-9, "{mover:?}: {object}");
@@ -400,7 +408,7 @@ fn rubbing_balls_throw_each_other_and_keep_what_they_must() {
 #[test]
 fn a_cushion_answers_with_coulombs_impulse() {
     // The sphere's K is diagonal, (7/2, 7/2, 1)/m: P_n = (1 + e) m v_n, P_T = −2/7 m u_T where it sticks, else −μ P_n û.
-    let (v0, cushion) = (DVec3::new(1.2, 0.0, 0.7), still(Shape::plane(DVec3::X * 0.1, DVec3::NEG_X)));
+    let (v0, cushion) = (DVec3::new(1.2, 0.0, 0.7), static_wrenches(Shape::plane(DVec3::X * 0.1, DVec3::NEG_X)));
     for mover in ALL {
         for (name, mu, e, w0) in [
             ("sticks", 0.6, 0.8, DVec3::new(0.0, 10.0, 0.0)),
@@ -415,8 +423,8 @@ fn a_cushion_answers_with_coulombs_impulse() {
             let normal = (1.0 + e) * MASS * v0.x;
             let u = (v0 + w0.cross(DVec3::X * R)).with_x(0.0);
             let stick = -2.0 / 7.0 * MASS * u;
-            let rub = if stick.length() <= mu * normal { stick } else { -mu * normal * u.normalize() };
-            let p = rub - DVec3::X * normal;
+            let friction = if stick.length() <= mu * normal { stick } else { -mu * normal * u.normalize() };
+            let p = friction - DVec3::X * normal;
             let v = v0 + p / MASS;
             let w = w0 + (DVec3::X * R).cross(p) / (SOLID * MASS * R * R);
             let after = table.ball();
@@ -437,7 +445,7 @@ fn a_table_full_of_balls_gains_nothing_ends_still_and_allocates_nothing() {
             ball.velocity = DVec3::new(0.3 * ((i * 5 % 7) as f64 - 3.0), 0.0, 0.25 * ((i * 3 % 5) as f64 - 2.0));
             ball.angular_velocity = DVec3::new(0.0, 10.0 * (i as f64 - 4.0), 5.0);
         }
-        let wall = |p: DVec3, n: DVec3| still(Shape::plane(p, n));
+        let wall = |p: DVec3, n: DVec3| static_wrenches(Shape::plane(p, n));
         let around = vec![
             floor(),
             wall(DVec3::X * -0.1, DVec3::X),
@@ -452,7 +460,7 @@ fn a_table_full_of_balls_gains_nothing_ends_still_and_allocates_nothing() {
         for step in 0..240 * 12 {
             assert_no_alloc(|| table.step());
             let now = table.dynamics.energy();
-            // By places what falls and is moved out again gives and takes a step's fall.
+            // In position-based motion a ball that falls and is moved out again gains and loses a step's fall.
             let slack = if mover == Mover::Dynamics { 1e-9 } else { 9.0 * MASS * G * 2.0 * G * DT * DT };
             assert!(now <= energy + slack, "{mover:?}, step {step}: {now} after {energy} J");
             energy = energy.min(now);

@@ -13,9 +13,9 @@ fn solve(matrix: &[Vec<f64>], rhs: &[f64]) -> Vec<f64> {
         let pivot = (k..n).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs())).expect("rows remain");
         m.swap(k, pivot);
         order.swap(k, pivot);
-        let (done, rest) = m.split_at_mut(k + 1);
+        let (done, remaining) = m.split_at_mut(k + 1);
         let row = &done[k];
-        for below in rest {
+        for below in remaining {
             let s = below[k] / row[k];
             below[k] = s;
             for j in k + 1..n {
@@ -150,9 +150,9 @@ pub fn well_posed(system: &System, bodies: &[RigidBody], rows: &[usize], least: 
     }) && independent(system, bodies, rows, least).0.len() == rows.len()
         && (0..bodies.len()).all(|top| {
             let hanging = hanging(system, bodies.len(), top);
-            let touches =
+            let acts_on_some =
                 |row: &usize, of: &dyn Fn(usize) -> bool| system.jacobian(*row).iter().any(|(body, _)| of(*body));
-            let own: Vec<usize> = rows.iter().copied().filter(|row| touches(row, &|body| hanging[body])).collect();
+            let own: Vec<usize> = rows.iter().copied().filter(|row| acts_on_some(row, &|body| hanging[body])).collect();
             spread(system, bodies, &own, least, |body| hanging[body]).0.len() == own.len()
         })
 }

@@ -11,9 +11,9 @@ use soffio_multibody::articulation::{Breaking, Constraint, LinearSolver, System}
 
 use super::mechanisms::{Kinds, below, body, mechanism, point, vector, wrench};
 
-/// How many random figures of each kind.
+/// How many random mechanisms of each kind.
 const MECHANISMS: u64 = 200;
-/// Of the largest unknown: two eliminations of figures whose condition numbers stay below some 10⁴.
+/// Of the largest unknown: two eliminations of mechanisms whose condition numbers stay below some 10⁴.
 const SOLVED: f64 = 1e-10;
 
 /// The levels that this processor has, the plainest first.
@@ -31,9 +31,9 @@ fn bush(random: &mut Random) -> (Vec<RigidBody>, Vec<Constraint>) {
     let count = 1 + below(random, 40);
     let bodies: Vec<RigidBody> = (0..count).map(|_| body(random)).collect();
     // Parents from the last few bodies make chains, from all make bushes.
-    let reach = 1 + below(random, count);
+    let distance = 1 + below(random, count);
     let joint = |i: usize, random: &mut Random| {
-        let parent = i.checked_sub(1 + below(random, reach.min(i + 1)));
+        let parent = i.checked_sub(1 + below(random, distance.min(i + 1)));
         let turned = parent.is_some() && random.unit() < 0.5;
         let kind = if turned { point(random, parent, Some(i)) } else { point(random, Some(i), parent) };
         Constraint::new(&format!("point-{i}"), kind)
@@ -43,7 +43,7 @@ fn bush(random: &mut Random) -> (Vec<RigidBody>, Vec<Constraint>) {
 }
 
 /// Accelerations and multipliers under random forces and wanted rows, and the rates that a velocity solve undoes; the
-/// figure may be one that is still being drawn together.
+/// mechanism may be one that is still being stabilised.
 fn solved(system: &mut System, bodies: &[RigidBody], stabilised: bool, random: &mut Random) -> (Vec<Vec6>, Vec<f64>) {
     system.evaluate(bodies);
     if stabilised {

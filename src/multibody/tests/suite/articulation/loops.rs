@@ -10,19 +10,19 @@ use super::kkt::independent;
 use super::mechanisms::{RandomMechanism, below, body, vector, world_anchor, world_axis};
 use super::solvers::{LEAST, Posed, SOLVED, largest, off, prepare};
 
-/// How many figures of each kind.
+/// How many mechanisms of each kind.
 const MECHANISMS: usize = 60;
 /// A row within a billionth of the others repeats them.
 const REPEATS: f64 = 1e-9;
 
-/// What is special about a figure.
+/// What is special about a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     /// Points in space.
     Balls,
     /// Hinges across one plane: each loop has three rows too many.
     Hinges,
-    /// Points, one body moves as it is told.
+    /// Points; one body is kinematic.
     Kinematic,
     /// Points, some of them in part only.
     Soft,
@@ -30,7 +30,7 @@ enum Kind {
     Floating,
 }
 
-/// Bodies in a closed figure of several loops: joined where they are, each to one before it and some to others.
+/// Bodies in a closed mechanism of several loops: joined where they are, each to one before it and some to others.
 fn mechanism(random: &mut Random, kind: Kind) -> RandomMechanism {
     let count = 4 + below(random, 9);
     let bodies: Vec<RigidBody> = (0..count).map(|_| body(random)).collect();
@@ -106,7 +106,7 @@ fn loops_of_any_shape_are_solved_as_by_elimination() {
                 worst = worst.max(error);
             }
         }
-        // Each figure of hinges has a loop at least.
+        // Each mechanism of hinges has a loop at least.
         assert!(kind != Kind::Hinges || repeated >= 3 * MECHANISMS, "{repeated} rows repeat others");
     }
     println!("loops of any shape: off by {worst:.1e} at most");

@@ -1,4 +1,4 @@
-//! Random figures: bodies in any motion, joined by every kind of row.
+//! Random mechanisms: bodies in any motion, joined by every kind of row.
 
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::Function;
@@ -93,7 +93,7 @@ pub fn coupling(random: &mut Random, bodies: usize) -> ConstraintKind {
     ConstraintKind::Coupling { terms }
 }
 
-/// A figure with what else a solve needs.
+/// A mechanism with what else a solve needs.
 pub struct RandomMechanism {
     pub bodies: Vec<RigidBody>,
     pub kinematic: Vec<bool>,
@@ -102,7 +102,7 @@ pub struct RandomMechanism {
     pub time: f64,
 }
 
-/// What a figure may hold.
+/// What a mechanism may hold.
 #[derive(Clone, Copy)]
 pub struct Kinds {
     pub loops: bool,
@@ -129,7 +129,7 @@ pub fn mechanism(random: &mut Random, kinds: Kinds) -> RandomMechanism {
     };
     for body in 0..count {
         let parent = if body == 0 { None } else { Some(below(random, body)) };
-        // A figure may float, and either end may come first.
+        // A mechanism may float, and either end may come first.
         if body == 0 && random.unit() < 0.2 {
             continue;
         }

@@ -15,10 +15,15 @@ fn ramp(seconds: f64) -> Schedule {
     Schedule { windows: vec![Window { start: 0.0, end: 100.0 }], ramp_in: seconds, ..Schedule::default() }
 }
 
-/// Multipliers and accelerations under some forces when `ramp`s of a second stand at `share`.
-fn solve(bodies: &[RigidBody], constraints: &[Constraint], method: LinearSolver, share: f64) -> (System, Vec<Vec6>) {
+/// Multipliers and accelerations under some forces when `ramp`s of a second stand at `activation`.
+fn solve(
+    bodies: &[RigidBody],
+    constraints: &[Constraint],
+    method: LinearSolver,
+    activation: f64,
+) -> (System, Vec<Vec6>) {
     let mut system = System::new(bodies, &vec![false; bodies.len()], constraints, method);
-    system.activity.update_activations(share);
+    system.activity.update_activations(activation);
     system.evaluate(bodies);
     system.factor();
     let mut random = Random::new(bodies.len() as u64);
@@ -29,14 +34,14 @@ fn solve(bodies: &[RigidBody], constraints: &[Constraint], method: LinearSolver,
     (system, a)
 }
 
-/// A chain of five bodies at odd angles, hung from the world by the first; also one whose root floats.
-fn chain(seed: u64, hung: bool) -> (Vec<RigidBody>, Vec<Constraint>) {
+/// A chain of five bodies at odd angles, hanging from the world by the first; also one whose root floats.
+fn chain(seed: u64, ball_joints: bool) -> (Vec<RigidBody>, Vec<Constraint>) {
     let mut random = Random::new(seed);
     let bodies: Vec<RigidBody> = (0..5).map(|_| body(&mut random)).collect();
     let mut constraints = Vec::new();
     for i in 0..5_usize {
         let parent = i.checked_sub(1);
-        if parent.is_some() || hung {
+        if parent.is_some() || ball_joints {
             constraints.push(Constraint::new(&format!("point-{i}"), point(&mut random, Some(i), parent)));
         }
     }
@@ -56,12 +61,12 @@ fn a_joint_of_share_s_carries_s_of_the_hard_force() {
                 faded[fading].schedule = ramp(1.0);
                 let (hard, _) = solve(&bodies, &constraints, method, 1.0);
                 let scale = hard.lambda.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
-                for share in [0.01, 0.3, 0.9] {
-                    let (soft, _) = solve(&bodies, &faded, method, share);
+                for activation in [0.01, 0.3, 0.9] {
+                    let (soft, _) = solve(&bodies, &faded, method, activation);
                     for row in soft.acting_rows().into_iter().filter(|&row| soft.compliance(row, row) > 0.0) {
-                        let error = (soft.lambda[row] - share * hard.lambda[row]).abs() / scale;
+                        let error = (soft.lambda[row] - activation * hard.lambda[row]).abs() / scale;
                         worst = worst.max(error);
-                        let at = format!("seed {seed}, {method:?}, constraint {fading}, share {share}");
+                        let at = format!("seed {seed}, {method:?}, constraint {fading}, share {activation}");
                         assert!(error < CARRIED, "{at}: carries {} of {}", soft.lambda[row], hard.lambda[row]);
                     }
                 }
@@ -88,14 +93,14 @@ fn crossing_shares_lead_from_one_joint_to_the_other() {
             Schedule { windows: vec![Window { start: -9.0, end: 1.0 }], ramp_out: 1.0, ..Schedule::default() };
         let both = [nail("from", places[0], falling), nail("to", places[1], ramp(1.0))];
         for method in [LinearSolver::Sparse, LinearSolver::Dense] {
-            for (share, alone) in [(1e-9, &both[0]), (1.0 - 1e-9, &both[1])] {
+            for (activation, alone) in [(1e-9, &both[0]), (1.0 - 1e-9, &both[1])] {
                 let alone = [Constraint { schedule: Schedule::default(), ..alone.clone() }];
                 let (_, expected) = solve(&bodies, &alone, method, 0.0);
-                let (_, found) = solve(&bodies, &both, method, share);
+                let (_, found) = solve(&bodies, &both, method, activation);
                 let off = (linear(&found[0]) - linear(&expected[0])).length()
                     + (angular(&found[0]) - angular(&expected[0])).length();
                 // A billionth of the other is left.
-                assert!(off < 1e-6, "seed {seed}, {method:?} at {share}: off by {off}");
+                assert!(off < 1e-6, "seed {seed}, {method:?} at {activation}: off by {off}");
             }
         }
     }

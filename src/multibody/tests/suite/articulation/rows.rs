@@ -39,8 +39,8 @@ fn shifted(bodies: &[RigidBody], accelerations: &[Vec6], t: f64) -> Vec<RigidBod
     let mut out = bodies.to_vec();
     for (body, a) in out.iter_mut().zip(accelerations) {
         let half = 0.5 * t * t;
-        let (way, rotated) = (soffio_math::spatial::linear(a), soffio_math::spatial::angular(a));
-        body.position += t * body.velocity + half * way;
+        let (displacement, rotated) = (soffio_math::spatial::linear(a), soffio_math::spatial::angular(a));
+        body.position += t * body.velocity + half * displacement;
         body.rotation = rotation(t * body.angular_velocity + half * rotated) * body.rotation;
     }
     out
@@ -96,13 +96,14 @@ fn check(name: &str, make: impl Fn(&mut Random) -> ConstraintKind) {
         for (k, (row, blocks)) in now.iter().enumerate() {
             let times = |v: &[Vec6]| (0..3).map(|i| dot(&blocks[i], &v[i])).sum::<f64>();
             // J alone: the bodies move, time and functions stand still.
-            let still: Vec<RigidBody> = bodies.clone();
-            let (way, _) = differences(|s| evaluate(&kind, &gauges, &shifted(&still, &[[0.0; 6]; 3], s), t)[k].0.value);
+            let original: Vec<RigidBody> = bodies.clone();
+            let (displacement, _) =
+                differences(|s| evaluate(&kind, &gauges, &shifted(&original, &[[0.0; 6]; 3], s), t)[k].0.value);
             let velocities: Vec<Vec6> = bodies.iter().map(|b| vec6(b.velocity, b.angular_velocity)).collect();
             let along = |s: f64| evaluate(&kind, &gauges, &shifted(&bodies, &accelerations, s), t + s)[k].0.value;
             let (rate, bend) = differences(along);
             let errors = [
-                (way - times(&velocities)).abs(),
+                (displacement - times(&velocities)).abs(),
                 (rate - (times(&velocities) - row.prescribed_rate)).abs(),
                 (bend - (times(&accelerations) + row.bias)).abs(),
             ];
@@ -174,7 +175,7 @@ fn functions_have_the_derivatives_they_say() {
             let (rate, bend) = differences(|s| function.at(t + s).value);
             let found = function.at(t);
             let off = [(rate - found.rate).abs(), (bend - found.acceleration).abs()];
-            // Quintics over spans of half a second bend a thousand times more than figures do.
+            // Quintics over spans of half a second bend a thousand times more than mechanisms do.
             assert!(off[0] < 1e2 * FIRST && off[1] < 1e3 * SECOND, "{interpolation:?}, seed {seed}: off by {off:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! Both solvers against the reference: 1,000 random figures, and figures whose rows repeat each other.
+//! Both solvers against the reference: 1,000 random mechanisms, and mechanisms whose rows repeat each other.
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::Function;
@@ -13,9 +13,9 @@ use super::mechanisms::{Kinds, RandomMechanism, below, body, mechanism, plane, p
 /// Of the largest unknown. Rows that lean on each other by less than `LEAST` are drawn anew: condition numbers stay
 /// below some 10⁵, so that a solver that loses no more than they cost is four digits better than this.
 pub const SOLVED: f64 = 1e-10;
-/// Least share of itself that a row of a random figure adds to the rows before it.
+/// Least share of itself that a row of a random mechanism adds to the rows before it.
 pub const LEAST: f64 = 0.03;
-/// How many systems, and how many for figures whose rows repeat each other.
+/// How many systems, and how many for mechanisms whose rows repeat each other.
 const SYSTEMS: u64 = 1000;
 const REPEATING: u64 = 100;
 
@@ -71,9 +71,9 @@ fn product(system: &System, row: usize, a: &[Vec6]) -> f64 {
     system.jacobian(row).iter().map(|(body, j)| (0..6).map(|k| j[k] * a[*body][k]).sum::<f64>()).sum()
 }
 
-pub fn largest(answer: &Solution) -> f64 {
-    let a = answer.a.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
-    answer.lambda.iter().fold(a, |s, x| s.max(x.abs()))
+pub fn largest(solution: &Solution) -> f64 {
+    let a = solution.a.iter().flatten().fold(0.0_f64, |s, x| s.max(x.abs()));
+    solution.lambda.iter().fold(a, |s, x| s.max(x.abs()))
 }
 
 pub fn off(found: &[Vec6], expected: &[Vec6]) -> f64 {
@@ -90,18 +90,18 @@ fn both_solvers_match_elimination_in_a_thousand_random_mechanisms() {
         let sparse = prepare(&mechanism, LinearSolver::Sparse, kinds.friction);
         let rows = sparse.acting_rows();
         let soft = rows.iter().any(|&row| sparse.compliance(row, row) > 0.0);
-        // Friction's rows repeat what is held, softly: the others must stand by themselves.
-        let held: Vec<usize> = if kinds.friction {
+        // Friction's soft rows repeat hard ones, so the hard ones must be independent.
+        let loaded: Vec<usize> = if kinds.friction {
             rows.iter().copied().filter(|&row| sparse.compliance(row, row) == 0.0).collect()
         } else {
             rows.clone()
         };
-        if !well_posed(&sparse, &mechanism.bodies, &held, LEAST) {
+        if !well_posed(&sparse, &mechanism.bodies, &loaded, LEAST) {
             seed += 1;
             continue;
         }
         let dense = prepare(&mechanism, LinearSolver::Dense, kinds.friction);
-        let mut answers: Vec<Vec<Vec6>> = Vec::new();
+        let mut solutions: Vec<Vec<Vec6>> = Vec::new();
         for (method, system) in [("sparse", sparse), ("dense", dense)] {
             let mut posed = Posed::new(system, &mut Random::new(seed));
             posed.solve();
@@ -113,8 +113,8 @@ fn both_solvers_match_elimination_in_a_thousand_random_mechanisms() {
             }
             assert!(error < SOLVED, "seed {seed}, {method}: off by {error:e}");
             worst = worst.max(error);
-            answers.push(posed.system.a.clone());
-            if let [sparse, dense] = &answers[..] {
+            solutions.push(posed.system.a.clone());
+            if let [sparse, dense] = &solutions[..] {
                 let error = off(sparse, dense) / scale;
                 assert!(error < SOLVED, "seed {seed}: the solvers differ by {error:e}");
             }
@@ -179,7 +179,7 @@ fn said_twice(random: &mut Random) -> RandomMechanism {
 
 #[test]
 fn rows_that_repeat_others_are_found_and_leave_the_motion_as_it_is() {
-    // A row within a billionth of the others is told to repeat them: what rounding leaves of it is a thousand times less.
+    // A row within a billionth of the others counts as redundant: rounding leaves a thousandth of that.
     const REPEATS: f64 = 1e-9;
     let mut worst = 0.0_f64;
     let mut seed = 0;

@@ -56,13 +56,13 @@ fn equal_faces_touch_at_their_corners_however_little_they_are_turned() {
     const NEAR: f64 = 1e-3;
     let half = 0.05;
     let cube = block(half, half, half);
-    for turn in [0.0, 1e-14, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3] {
-        let m = manifold(&cube, &tilted(DVec3::Y, turn, 2.0 * half), &cube, &at(0.0, 0.0, 0.0));
+    for angle in [0.0, 1e-14, 1e-9, 1e-7, 1e-5, 1e-4, 1e-3] {
+        let m = manifold(&cube, &tilted(DVec3::Y, angle, 2.0 * half), &cube, &at(0.0, 0.0, 0.0));
         let corners: Vec<_> = m.points().iter().map(|p| [p.point.x > 0.0, p.point.z > 0.0]).collect();
-        assert!((0..4).all(|k| (0..k).all(|j| corners[j] != corners[k])), "turned by {turn}: {m:?}");
+        assert!((0..4).all(|k| (0..k).all(|j| corners[j] != corners[k])), "turned by {angle}: {m:?}");
         for p in m.points() {
             let off = (p.point.x.abs() - half).abs().max((p.point.z.abs() - half).abs());
-            assert!(off < NEAR, "turned by {turn}: {} is {off} m from its corner", p.point);
+            assert!(off < NEAR, "turned by {angle}: {} is {off} m from its corner", p.point);
         }
     }
 }
@@ -137,12 +137,12 @@ fn what_leans_touches_where_it_is_lowest() {
     assert_points(&manifold(&cube, &on_edge, &cube, &at(0.0, -0.1, 0.05)), 0.0, &[[0.0, 0.0, -0.05], [0.0, 0.0, 0.1]]);
     let on_corner = tilted(DVec3::new(1.0, 0.3, -0.7).normalize(), 0.7, 0.2);
     assert_eq!(manifold(&cube, &on_corner, &ground(), &Pose::IDENTITY).count, 1);
-    let lean = 0.01_f64;
-    let m = manifold(&cube, &tilted(DVec3::Z, lean, 0.1 * (lean.cos() + lean.sin())), &ground(), &Pose::IDENTITY);
+    let tilt = 0.01_f64;
+    let m = manifold(&cube, &tilted(DVec3::Z, tilt, 0.1 * (tilt.cos() + tilt.sin())), &ground(), &Pose::IDENTITY);
     let mut gaps: Vec<f64> = m.points().iter().map(|p| p.gap).collect();
     gaps.sort_by(f64::total_cmp);
     assert_eq!(gaps.len(), 4);
-    for (gap, expected) in gaps.iter().zip([0.0, 0.0, 0.2 * lean.sin(), 0.2 * lean.sin()]) {
+    for (gap, expected) in gaps.iter().zip([0.0, 0.0, 0.2 * tilt.sin(), 0.2 * tilt.sin()]) {
         assert!((gap - expected).abs() < EXACT, "{gaps:?}");
     }
 }
@@ -196,11 +196,11 @@ fn plates_of_many_corners_keep_the_four_that_hold_most() {
         assert_eq!(m.count, 4, "seed {seed}");
         // The best four of an ellipse hold 2/π of it; these begin where the feature does.
         let [p, q, r, s] = [0, 1, 2, 3].map(|k| m.points[k].point);
-        let held = 0.5 * (r - p).cross(s - q).length();
+        let covered = 0.5 * (r - p).cross(s - q).length();
         let corners: Vec<DVec3> = super::outline(&disc, &flat);
         let area: f64 = (1..corners.len() - 1)
             .map(|k| 0.5 * (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]).length())
             .sum();
-        assert!(held > 0.45 * area, "seed {seed}: {held} of {area}");
+        assert!(covered > 0.45 * area, "seed {seed}: {covered} of {area}");
     }
 }

@@ -77,7 +77,7 @@ fn outline(shape: &Shape, pose: &Pose) -> Vec<DVec3> {
                 [-half, *half].map(|y| DVec3::new(radius * angle.cos(), y, radius * angle.sin()))
             })
             .collect(),
-        // A block of a metre below the plane, far wider than what stands on it.
+        // A block of a metre below the plane, far wider than the body on it.
         Core::HalfSpace => box_of(DVec3::new(20.0, 0.5, 20.0)).map(|p| p - 0.5 * DVec3::Y).collect(),
         Core::Hull(hull) => hull.corners().to_vec(),
     };
@@ -169,8 +169,9 @@ fn every_pair_of_shapes_agrees_with_independent_geometry() {
                 );
                 // A rigid motion of both carries the answer along.
                 let by = pose(random, 1.0);
-                let moved = |p: &Pose| Pose { rotation: by.rotation * p.rotation, position: by.point(p.position) };
-                let there = proximity(&a, &moved(&at_a), &b, &moved(&at_b));
+                let transformed =
+                    |p: &Pose| Pose { rotation: by.rotation * p.rotation, position: by.point(p.position) };
+                let there = proximity(&a, &transformed(&at_a), &b, &transformed(&at_b));
                 assert!((there.gap - found.gap).abs() < FINE, "{label}: {} elsewhere", there.gap);
                 assert_eq!(found, proximity(&a, &at_a, &b, &at_b), "{label}: twice the same bits");
             }
@@ -306,8 +307,8 @@ fn shapes_inside_each_other_have_some_way_out() {
         let random = &mut Random::new(seed + 1000);
         for (i, a) in all.iter().enumerate() {
             for (j, b) in all.iter().enumerate() {
-                let turn = [Pose::IDENTITY, pose(random, 0.0), pose(random, 1e-9), pose(random, 1e-4)];
-                for (k, at_a) in turn.iter().enumerate() {
+                let motion = [Pose::IDENTITY, pose(random, 0.0), pose(random, 1e-9), pose(random, 1e-4)];
+                for (k, at_a) in motion.iter().enumerate() {
                     let found = proximity(a, at_a, b, &Pose::IDENTITY);
                     let label = format!("seed {seed}, shapes {i} in {j}, pose {k}");
                     check(&label, (a, at_a), (b, &Pose::IDENTITY), &found);

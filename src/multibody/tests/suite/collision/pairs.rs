@@ -54,7 +54,7 @@ fn every_pair_left_out_has_its_reason() {
     assert!((apart - 3.8).abs() < 1e-4, "{apart}");
     let Some(PairExclusion::Unreachable(apart)) = reason(2, 5) else { panic!("{found:?}") };
     assert!((apart - 8.8).abs() < 1e-4, "{apart}");
-    // The free body may meet all but the world; every pair is told of once.
+    // The free body may meet all but the world; every pair is reported once.
     let free = [(0, 4), (1, 4), (2, 4), (3, 4)].map(|(a, b)| ColliderPair { a, b });
     assert_eq!(found.meet, free);
     assert_eq!(found.meet.len() + found.left_out.len(), 7 * 6 / 2);
@@ -67,7 +67,7 @@ fn every_pair_left_out_has_its_reason() {
     assert!(ReachableVolumes::new(&colliders, &scattered, &joints, &[]).clearance(2, 3) < 0.0);
 }
 
-/// A random tree of bodies hung from nails: each body's parent (or the world) and the joint.
+/// A random tree of bodies hanging from world anchors: each body's parent (or the world) and the joint.
 fn tree(random: &mut Random, count: usize) -> (Vec<Collider>, Vec<Pose>, Vec<JointPoint>) {
     let (mut colliders, mut poses, mut joints): (Vec<Collider>, Vec<Pose>, Vec<JointPoint>) = Default::default();
     for body in 0..count {
@@ -97,26 +97,26 @@ fn no_motion_of_a_tree_leaves_its_bounds() {
         }
         colliders.push(collider(None, Shape::plane(DVec3::Y * -0.6, DVec3::Y)));
         let bounding_radius = ReachableVolumes::new(&colliders, &poses, &joints, &[axis]);
-        let still: Vec<(usize, usize, f64)> = (0..colliders.len())
+        let resting: Vec<(usize, usize, f64)> = (0..colliders.len())
             .flat_map(|i| (i + 1..colliders.len()).map(move |j| (i, j)))
             .map(|(i, j)| (i, j, bounding_radius.clearance(i, j)))
             .filter(|(i, j, apart)| *apart > 0.0 && colliders[*i].body != colliders[*j].body)
             .collect();
-        bounded += still.len();
+        bounded += resting.len();
         for motion in 0..40 {
             for body in 0..8 {
-                let turn = if body == 0 {
+                let rotation = if body == 0 {
                     rotation(axis.direction * random.signed() * PI)
                 } else {
                     rotation(signed(random) * PI)
                 };
-                let rotation = (turn * poses[body].rotation).normalize();
+                let rotation = (rotation * poses[body].rotation).normalize();
                 let [own, other] = joints[body];
                 let at = other.body.map_or(other.point, |p| poses[p].point(other.point));
                 poses[body] = Pose { rotation, position: at - rotation * own.point };
             }
             let at = |c: &Collider| c.body.map_or(Pose::IDENTITY, |b| poses[b]);
-            for &(i, j, apart) in &still {
+            for &(i, j, apart) in &resting {
                 let (a, b) = (&colliders[i], &colliders[j]);
                 let gap = proximity(&a.shape, &at(a), &b.shape, &at(b)).gap;
                 assert!(gap >= apart, "seed {seed}, motion {motion}: {i} and {j} are {gap} apart, not {apart}");
@@ -141,8 +141,8 @@ fn what_turns_about_one_line_stays_in_its_ring() {
     let axes = [0, 1].map(|body| FixedAxis { body, point: DVec3::ZERO, direction: DVec3::Z });
     let free = ReachableVolumes::new(&colliders, &poses, &joints, &[]);
     assert!(free.clearance(0, 1) < 0.0);
-    let held = ReachableVolumes::new(&colliders, &poses, &joints, &axes);
-    assert!((held.clearance(0, 1) - 0.03).abs() < 1e-4, "{}", held.clearance(0, 1));
+    let reachable = ReachableVolumes::new(&colliders, &poses, &joints, &axes);
+    assert!((reachable.clearance(0, 1) - 0.03).abs() < 1e-4, "{}", reachable.clearance(0, 1));
 }
 
 /// Scenes of bodies that fly about: colliders, poses before and after as sweeps.
@@ -169,7 +169,7 @@ fn scene(seed: u64, bodies: usize) -> (Vec<Collider>, Vec<Sweep>) {
     (colliders, sweeps)
 }
 
-/// A wheel of balls and a body of three, that wander about each other: a sweep a step, now and then a leap between two.
+/// A wheel of balls and a body of three, that wander about each other: a sweep a step, now and then a jump between two.
 #[test]
 fn of_many_pairs_the_same_are_found_as_at_first_sight() {
     let mut random = Random::new(23);
@@ -184,25 +184,25 @@ fn of_many_pairs_the_same_are_found_as_at_first_sight() {
     let at = |x: f64| Pose { rotation: DQuat::IDENTITY, position: DVec3::X * x };
     let mut bodies = [RigidBody::at_rest(properties, at(0.0)), RigidBody::at_rest(properties, at(0.1))];
     let mut broad = BroadPhase::new(&colliders, &pairs);
-    let (mut found, mut fresh, mut met) = (Vec::new(), Vec::new(), 0);
+    let (mut found, mut fresh, mut collided) = (Vec::new(), Vec::new(), 0);
     for step in 0..4000 {
         let size = if step % 500 == 0 { 0.05 } else { 2e-4 };
         let before = bodies;
-        let turns = [0.1 * size * signed(&mut random) + 2e-3 * DVec3::Z, 10.0 * size * signed(&mut random)];
-        for ((body, home), turn) in bodies.iter_mut().zip([DVec3::ZERO, 0.1 * DVec3::X]).zip(turns) {
-            body.displace(size * signed(&mut random) + 0.1 * (home - body.position), turn);
+        let rotations = [0.1 * size * signed(&mut random) + 2e-3 * DVec3::Z, 10.0 * size * signed(&mut random)];
+        for ((body, home), rotation) in bodies.iter_mut().zip([DVec3::ZERO, 0.1 * DVec3::X]).zip(rotations) {
+            body.displace(size * signed(&mut random) + 0.1 * (home - body.position), rotation);
         }
         let sweeps = [0, 1].map(|k| Sweep::new(&before[k], &bodies[k]));
         broad.candidates(&sweeps, &mut found);
         BroadPhase::new(&colliders, &pairs).candidates(&sweeps, &mut fresh);
         assert_eq!(found, fresh, "step {step}");
-        met += found.len();
+        collided += found.len();
         // Thrown elsewhere, as a hand or a reset does.
         if step % 700 == 699 {
             bodies[1].displace(0.03 * signed(&mut random), signed(&mut random));
         }
     }
-    assert!(met > 1000, "{met} pairs in all");
+    assert!(collided > 1000, "{collided} pairs in all");
 }
 
 #[test]
@@ -224,20 +224,20 @@ fn the_broad_phase_finds_whatever_meets() {
         for (index, pair) in pairs.iter().enumerate() {
             let (a, b) = (&colliders[pair.a], &colliders[pair.b]);
             let (sa, sb) = (sweep(a), sweep(b));
-            let hit = time_of_impact(
+            let impact = time_of_impact(
                 &ManifoldBuilder::default(),
                 MovingCollider { collider: a, sweep: &sa, bounding_radius: bounding_radius(a) },
                 MovingCollider { collider: b, sweep: &sb, bounding_radius: bounding_radius(b) },
             );
             // The hit is where the broad phase must not be wrong.
-            let met = hit.is_some_and(|hit| hit.proximity.gap < 1e-5);
-            hits += usize::from(met);
-            assert!(!met || found.contains(&index), "seed {seed}: pair {index} meets unseen, {hit:?}");
+            let collided = impact.is_some_and(|impact| impact.proximity.gap < 1e-5);
+            hits += usize::from(collided);
+            assert!(!collided || found.contains(&index), "seed {seed}: pair {index} meets unseen, {impact:?}");
         }
         kept += found.len();
         all += pairs.len();
     }
-    // It must also leave out: boxes hold a few times what meets.
+    // It must also leave out: boxes overlap a few times as often as colliders.
     assert!(hits > 100 && kept < 5 * hits && kept < all / 4, "{hits} hits, {kept} candidates of {all} pairs");
 }
 
@@ -247,13 +247,13 @@ fn boxes_follow_the_shape_along_its_way() {
     for seed in 0..200 {
         let random = &mut Random::new(seed);
         let far = signed(random) * 0.3;
-        let still = signed(random) * 0.1;
+        let resting = signed(random) * 0.1;
         let properties = MassProperties { mass: 1.0, center: signed(random) * 0.2, inertia: DMat3::IDENTITY };
         let before = RigidBody::at_rest(properties, pose(random, 0.1));
         let mut after = before;
         after.displace(signed(random) * 0.3, signed(random) * 1.7);
         let sweep = Sweep::new(&before, &after);
-        let colliders = [ball(Some(0), far, 1e-6), ball(None, still, 1e-6)];
+        let colliders = [ball(Some(0), far, 1e-6), ball(None, resting, 1e-6)];
         // A ball put on the way of the other is always a candidate.
         for k in 0..=20 {
             let on_way = sweep.pose(f64::from(k) / 20.0).point(far);

@@ -42,33 +42,33 @@ fn a_millimetre_of_sheet_at_twenty_metres_a_second_passes_nothing() {
             1 => shape((seed / 3) as usize % KINDS, random),
             _ => Shape::plane(DVec3::ZERO, signed(random).normalize()),
         };
-        let still = other.is_plane();
-        let other = collider(if still { None } else { Some(1) }, other);
-        let toward = if still { -other.shape.place.vector(DVec3::Y) } else { signed(random).normalize() };
+        let is_static = other.is_plane();
+        let other = collider(if is_static { None } else { Some(1) }, other);
+        let toward = if is_static { -other.shape.place.vector(DVec3::Y) } else { signed(random).normalize() };
         // It starts clear of the other and would end behind it.
         let from = Pose { position: other.shape.middle() - toward * 0.6 * SPEED * DT, ..pose(random, 0.0) };
-        let spins = [signed(random) * 60.0, if still { DVec3::ZERO } else { signed(random) * 60.0 }];
+        let spins = [signed(random) * 60.0, if is_static { DVec3::ZERO } else { signed(random) * 60.0 }];
         let moving = sweep(from, toward * SPEED, spins[0], DT);
-        let held = if still { Sweep::STATIC } else { sweep(Pose::IDENTITY, DVec3::ZERO, spins[1], DT) };
+        let second_sweep = if is_static { Sweep::STATIC } else { sweep(Pose::IDENTITY, DVec3::ZERO, spins[1], DT) };
         let found = time_of_impact(
             &ManifoldBuilder::default(),
             MovingCollider { collider: &flying, sweep: &moving, bounding_radius: bounding_radius(&flying) },
-            MovingCollider { collider: &other, sweep: &held, bounding_radius: bounding_radius(&other) },
+            MovingCollider { collider: &other, sweep: &second_sweep, bounding_radius: bounding_radius(&other) },
         );
-        let gap = |s: f64| proximity(&flying.shape, &moving.pose(s), &other.shape, &held.pose(s)).gap;
-        let Some(hit) = found else {
-            // What turns out of the way is missed; the samples are 0.4 mm apart.
+        let gap = |s: f64| proximity(&flying.shape, &moving.pose(s), &other.shape, &second_sweep.pose(s)).gap;
+        let Some(impact) = found else {
+            // A body that rotates out of the way is missed; the samples are 0.4 mm apart.
             assert!((0..=1000).all(|k| gap(f64::from(k) / 1000.0) > 0.0), "seed {seed}: passed through");
             continue;
         };
         hits += 1;
         // It stands at the surface: not beyond, and not far before.
-        let there = gap(hit.s);
-        assert!(there > -EXACT && there < 50.0 * CONTACT_MARGIN, "seed {seed}: gap {there} at {}", hit.s);
+        let there = gap(impact.s);
+        assert!(there > -EXACT && there < 50.0 * CONTACT_MARGIN, "seed {seed}: gap {there} at {}", impact.s);
         // Nothing touched before.
         for k in 0..200 {
-            let s = hit.s * f64::from(k) / 200.0;
-            assert!(gap(s) > 0.0, "seed {seed}: in each other at {s}, reported at {}", hit.s);
+            let s = impact.s * f64::from(k) / 200.0;
+            assert!(gap(s) > 0.0, "seed {seed}: in each other at {s}, reported at {}", impact.s);
         }
     }
     assert!(hits > 350, "only {hits} of 400 met");
@@ -76,7 +76,7 @@ fn a_millimetre_of_sheet_at_twenty_metres_a_second_passes_nothing() {
 
 #[test]
 fn any_shapes_meet_when_sampling_says_so() {
-    let mut met = 0;
+    let mut collisions = 0;
     for seed in 0..600 {
         let random = &mut Random::new(seed + 5000);
         let (a, b) = (shape(seed as usize % KINDS, random), shape((seed / 7) as usize % KINDS, random));
@@ -92,18 +92,18 @@ fn any_shapes_meet_when_sampling_says_so() {
         );
         let sampled = (0..=2000).map(|k| f64::from(k) / 2000.0).find(|&s| gap(s) < 0.0);
         if let Some(s) = sampled {
-            met += 1;
-            let Some(hit) = found else { panic!("seed {seed}: meeting at {s} not seen") };
-            assert!(hit.s <= s, "seed {seed}: {} is after {s}", hit.s);
+            collisions += 1;
+            let Some(impact) = found else { panic!("seed {seed}: meeting at {s} not seen") };
+            assert!(impact.s <= s, "seed {seed}: {} is after {s}", impact.s);
             assert!(
-                hit.s == 0.0 || gap(hit.s).abs() < 50.0 * CONTACT_MARGIN,
+                impact.s == 0.0 || gap(impact.s).abs() < 50.0 * CONTACT_MARGIN,
                 "seed {seed}: gap {} at {}",
-                gap(hit.s),
-                hit.s
+                gap(impact.s),
+                impact.s
             );
         }
     }
-    assert!((50..500).contains(&met), "{met} met");
+    assert!((50..500).contains(&collisions), "{collisions} met");
 }
 
 #[test]
@@ -113,24 +113,24 @@ fn a_ball_falls_on_a_plane_in_its_own_time() {
     let floor = collider(None, Shape::plane(DVec3::ZERO, DVec3::Y));
     let from = Pose { rotation: rotation(DVec3::X), position: DVec3::new(1.0, 0.1, 2.0) };
     let falling = sweep(from, DVec3::new(3.0, -16.0, 0.0), DVec3::splat(PI), 0.01);
-    let hit = time_of_impact(
+    let impact = time_of_impact(
         &ManifoldBuilder::default(),
         MovingCollider { collider: &ball, sweep: &falling, bounding_radius: bounding_radius(&ball) },
         MovingCollider { collider: &floor, sweep: &Sweep::STATIC, bounding_radius: bounding_radius(&floor) },
     )
     .expect("it falls on it");
-    assert!((hit.s - 0.5).abs() < CONTACT_MARGIN / 0.16, "{}", hit.s);
-    assert!(hit.proximity.normal.distance(DVec3::Y) < EXACT);
+    assert!((impact.s - 0.5).abs() < CONTACT_MARGIN / 0.16, "{}", impact.s);
+    assert!(impact.proximity.normal.distance(DVec3::Y) < EXACT);
     // One that turns with a driven plane is met, one that the plane turns away from is not.
     let up = sweep(Pose::IDENTITY, DVec3::ZERO, DVec3::Z * 20.0, 0.01);
-    let driven = collider(Some(1), Shape::plane(DVec3::ZERO, DVec3::Y));
+    let kinematic = collider(Some(1), Shape::plane(DVec3::ZERO, DVec3::Y));
     for (x, meets) in [(1.0, true), (-1.0, false)] {
         let at = sweep(Pose { position: DVec3::new(x, 0.1, 0.0), ..from }, DVec3::ZERO, DVec3::ZERO, 0.01);
-        let hit = time_of_impact(
+        let impact = time_of_impact(
             &ManifoldBuilder::default(),
             MovingCollider { collider: &ball, sweep: &at, bounding_radius: bounding_radius(&ball) },
-            MovingCollider { collider: &driven, sweep: &up, bounding_radius: bounding_radius(&driven) },
+            MovingCollider { collider: &kinematic, sweep: &up, bounding_radius: bounding_radius(&kinematic) },
         );
-        assert_eq!(hit.is_some(), meets, "ball at {x}");
+        assert_eq!(impact.is_some(), meets, "ball at {x}");
     }
 }

@@ -8,7 +8,7 @@ use super::{Extras, Hand, chain, end_of};
 
 const LINKS: usize = 8;
 
-/// The source's own figures: the uppermost link is taken and dragged away, by its rule. The heavier shape, of three times the
+/// The source's own mechanisms: the uppermost link is taken and dragged away, by its rule. The heavier shape, of three times the
 /// I/m, turns less for the same way of the hand, so that its chain keeps its form longer and hangs steeper.
 #[test]
 fn by_the_sources_rule_the_chain_of_more_inertia_turns_less() {

@@ -1,4 +1,4 @@
-//! What is moved by places meets things: it is thrown back, moved out, and tells it.
+//! Collisions in position-based motion: bodies bounce, are moved out, and report the impact.
 
 use soffio_math::{DVec3, Pose};
 use soffio_multibody::collision::{Collider, Shape};

@@ -79,7 +79,7 @@ fn what_is_out_of_reach_ends_and_is_told() {
     }
 }
 
-/// A minute of hands that leap anywhere within 10 m, at 30 steps a second, on chains of very unlike masses.
+/// A minute of grabs whose targets jump anywhere within 10 m, at 30 steps a second, on chains of very unlike masses.
 #[test]
 fn wild_drags_neither_break_nor_grow() {
     for method in METHODS {
@@ -120,7 +120,7 @@ fn wild_drags_neither_break_nor_grow() {
     }
 }
 
-/// Let go, a figure under gravity with damping comes to rest: nothing feeds it.
+/// Let go, a mechanism under gravity with damping comes to rest: nothing feeds it.
 #[test]
 fn what_was_dragged_comes_to_rest() {
     for method in METHODS {

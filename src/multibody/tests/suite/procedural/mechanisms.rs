@@ -1,4 +1,4 @@
-//! Whole figures: grouping where it is exact, the tree's solve against a dense one, and both beside the laws.
+//! Whole mechanisms: grouping where it is exact, the tree's solve against a dense one, and both beside constrained dynamics.
 
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::noise::Random;
@@ -176,7 +176,7 @@ fn one_pass_closes_what_is_held_in_one_place() {
     }
 }
 
-/// A double pendulum beside the laws: near for a second, and no energy comes from nowhere.
+/// A double pendulum beside constrained dynamics: near for a second, and no energy comes from nowhere.
 #[test]
 fn all_joints_at_once_stay_near_the_laws() {
     /// First order: what a step of 1/240 s may leave after a second of swings of 0.2 m, m.

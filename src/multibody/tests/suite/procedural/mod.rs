@@ -1,4 +1,4 @@
-//! Procedural motion: the source's rule against hand calculation, whole figures against an exact solve, drags, limits,
+//! Procedural motion: the source's rule against hand calculation, whole mechanisms against an exact solve, drags, limits,
 //! touch, and the change from one kind of motion to the other.
 
 mod chains;
@@ -22,14 +22,14 @@ use crate::motion::World;
 
 pub const METHODS: [PositionSolver; 2] = [PositionSolver::Relaxation, PositionSolver::TreeSolve];
 
-/// A figure in a mover's hands.
+/// A mechanism in a mover's hands.
 pub struct Hand {
     pub dynamics: Dynamics,
     pub procedural: Procedural,
     pub impacts: Vec<soffio_multibody::dynamics::Impact>,
 }
 
-/// What a figure is made of beside a world's bodies, joints and drives.
+/// What a mechanism is made of beside a world's bodies, joints and drives.
 #[derive(Default)]
 pub struct Extras {
     pub limits: Vec<Limit>,
@@ -61,7 +61,7 @@ impl Hand {
     }
 }
 
-/// The same figure under the laws.
+/// The same mechanism under constrained dynamics.
 pub fn dynamics_of(world: &World, extras: &Extras) -> Dynamics {
     let (constraints, kinematic_bodies): (&[Constraint], &[KinematicBody]) =
         (&world.constraints, &world.kinematic_bodies);

@@ -82,7 +82,7 @@ fn two_free_objects_meet_where_their_masses_say() {
     assert!((m1 * (c1 - c) - m2 * (c - c2)).length() < ROUNDING);
 }
 
-/// O₁ is carried by key frames and leaps; O₂ hangs on it by a point.
+/// O₁ follows key frames and jumps; O₂ hangs on it by a point.
 #[test]
 fn a_step_moves_the_second_object_by_the_rule() {
     const JUMP: DVec3 = DVec3::new(0.05, 0.2, 0.0);
