@@ -24,7 +24,7 @@ const LEFT_OUT: &[(&str, &str)] = &[
 
 /// Arguments that would take hours, and what is run instead.
 const SHORTER: &[(&str, &str)] =
-    &[("--hours 0.5", "--hours 0.002"), ("--hours 8", "--hours 0.002"), ("--hours 2", "--hours 0.002")];
+    &[("--hours 0.5", "--hours 0.05"), ("--hours 8", "--hours 0.05"), ("--hours 2", "--hours 0.05")];
 
 /// Commands in a document's `sh` blocks, in order. A line that begins with a space belongs to what the command above shows.
 fn commands(document: &str) -> Vec<String> {

@@ -250,7 +250,7 @@ impl Changes {
         let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
         let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
         if now != after {
-            return Err(format!("{}: changed otherwise since; it stays as it is", file.display()));
+            return Err(format!("{}: somebody else has changed this file, so it stays as it is", file.display()));
         }
         write(&file, &before)
     }

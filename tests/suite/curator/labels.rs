@@ -106,7 +106,7 @@ fn unusable_rows_are_all_refused_at_once_with_their_lines() {
     let found: Vec<(usize, &str)> =
         report.diagnostics.iter().map(|d| (d.location.as_ref().map_or(0, |l| l.line), d.message.as_str())).collect();
     for (line, words) in [
-        (1, "\"deutsch\" is no language"),
+        (1, "\"deutsch\" is not a language"),
         (1, "\"en\" has two columns"),
         (3, "no text \"caption.rng\""),
         (4, "\"title\" has two rows"),

@@ -98,13 +98,13 @@ fn a_model_is_imported_under_the_name_of_its_file() {
     assert!(check.err.contains("my-cup-2: good\n"), "{}", check.err);
     desk.soffio(&["import", "My Cup_2.glb"]).refused(1, &["my-cup-2", "is there already"]);
     desk.soffio(&["import", "My Cup_2.glb", "--id", "cup"]).done();
-    // Physics that no body has: the folder is there to be mended, and the message says where.
+    // Physics that no body has: the folder is there to be corrected, and the message says where.
     let body = scene.node("Odd", [1.0, 1.0, 0.0], None, &[]);
     let motion = json!({ "motion": { "mass": 1.0, "inertiaDiagonal": [1.0, 1.0, 10.0] } });
     scene.set(body, "extensions", json!({ "KHR_physics_rigid_bodies": motion }));
     desk.write("odd.glb", scene.glb());
     let odd = desk.soffio(&["import", "odd.glb"]);
-    odd.refused(1, &["E0223", "odd/exhibit.toml:", "is there; mend", "soffio check odd"]);
+    odd.refused(1, &["E0223", "odd/exhibit.toml:", "is there; correct", "soffio check odd"]);
     assert_eq!(desk.soffio(&["check", "--quick", "odd"]).code, Some(1));
     assert_eq!(desk.files(), ["My Cup_2.glb", "cup", "my-cup-2", "odd", "odd.glb"]);
 }

@@ -175,7 +175,7 @@ fn an_outline_that_is_no_plate_is_refused_with_its_position() {
     let cases = [
         ("<path id=\"ring\" d=\"M0 0H90V90H0Z M20 20H40V40H20Z\"/>", "holes", "id=\"ring\""),
         ("<path id=\"open\" d=\"M0 0 L90 0 L90 90\"/>", "open line", "close it"),
-        ("<path id=\"eight\" d=\"M0 0 L90 90 L90 0 L0 90 Z\"/>", "crosses itself", "untie"),
+        ("<path id=\"eight\" d=\"M0 0 L90 90 L90 0 L0 90 Z\"/>", "crosses itself", "remove the loop"),
         ("<path id=\"bad\" d=\"M0 0 L90 ninety Z\"/>", "cannot be read", "plain SVG"),
         ("<path id=\"nothing\" d=\"M0 0 L90 0 L0 0 Z\"/>", "no area", "15"),
         ("<text id=\"word\">SOFFIO</text>", "is text", "Object to Path"),

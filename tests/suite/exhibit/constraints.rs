@@ -407,7 +407,7 @@ fn a_ring_of_hinges_loads_and_names_the_rows_that_repeat_others() {
                 [[constraint.hinge]]\nname = \"third\"\nbody = \"Weight\"\naxis = [0, 0, 1]\n[solver]\nassemble = true\n";
     let warned = load(ring);
     let warning = warned.warnings.iter().find(|w| w.code == codes::REDUNDANT.name).expect("a warning");
-    for part in ["\"second/nail\" (3 rows)", "\"second/about-x\"", "\"second/about-y\" hold again"] {
+    for part in ["\"second/nail\" (3 rows)", "\"second/about-x\"", "\"second/about-y\" are redundant"] {
         assert!(warning.message.contains(part), "{}", warning.message);
     }
     let open = "[[constraint.nail]]\nname = \"first\"\nbody = \"Arm\"\nto = [0.1, 1, -0.2]\n\

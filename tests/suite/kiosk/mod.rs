@@ -619,8 +619,8 @@ mod doctor {
             ("clipping", noise(|_| 3.0), Health::Warn, "clips"),
             ("loud", noise(|_| 0.3), Health::Warn, "loud"),
             ("gain control", noise(|t| 0.0005 * (1.0 + 9.0 * t)), Health::Warn, "gain control"),
-            ("stuttering", noise(|_| 0.002)[..10_000].to_vec(), Health::Bad, "hardly"),
-            ("nothing", Vec::new(), Health::Bad, "hardly"),
+            ("stuttering", noise(|_| 0.002)[..10_000].to_vec(), Health::Bad, "too few samples"),
+            ("nothing", Vec::new(), Health::Bad, "too few samples"),
         ] {
             let finding = judge_room(&samples, RATE);
             assert_eq!(finding.health, health, "{what}: {finding:?}");

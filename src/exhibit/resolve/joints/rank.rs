@@ -97,7 +97,10 @@ impl Context<'_> {
             (
                 Finding::Redundant,
                 codes::REDUNDANT,
-                ["constrains again what others constrain already", "constrain again what others constrain already"],
+                [
+                    "is redundant: other constraints already do the same",
+                    "are redundant: other constraints already do the same",
+                ],
                 "the solver leaves such rows out; a universal instead of a hinge, or a line instead of a slider, closes \
                  a ring without them",
             ),
