@@ -139,7 +139,7 @@ impl<T: Real> BallElimination<T> {
         let lambda = self.effective_mass.mul(carried) - w;
         let u = g + carried;
         let angular = self.inverse_inertia.mul(torque) - self.force_per_torque.transposed_mul(u);
-        (SpatialVector { linear: u - angular.cross(self.arms.own), angular: angular }, lambda)
+        (SpatialVector { linear: u - angular.cross(self.arms.own), angular }, lambda)
     }
 }
 
