@@ -383,9 +383,9 @@ broker() {
     "${command[@]}" -m reload
     within 10 test "$(grep -c 'steel-fish is on show' "$workdir/broker.err")" -ge 1 || true
     "${command[@]}" -m shutdown
-    within 5 grep -q '"shutdown" is no order' "$workdir/broker.err" || true
+    within 5 grep -q '"shutdown" is no command' "$workdir/broker.err" || true
     sleep 2
-    bar "broker: commands" "$seen == 1 && $(grep -c 'steel-fish is on show' "$workdir/broker.err") == 2 && $(grep -c '"muted":true' "$workdir/messages.out") >= 1 && $(grep -c 'is no order' "$workdir/broker.err") == 1" \
+    bar "broker: commands" "$seen == 1 && $(grep -c 'steel-fish is on show' "$workdir/broker.err") == 2 && $(grep -c '"muted":true' "$workdir/messages.out") >= 1 && $(grep -c 'is no command' "$workdir/broker.err") == 1" \
         "another exhibit, mute, blank, wake, reload; no other command"
     # Kiosk and launcher are killed: the broker publishes the last will.
     local pid

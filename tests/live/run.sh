@@ -157,7 +157,7 @@ latency() {
     # The detector may take 140 ms. A block of the microphone, one of the loudspeaker, a step and the attack of the sound are added.
     bar "breath to sound" "$(echo "$took" | wc -w) == 9 && $median <= 220 && $most <= 350" \
         "$took ms, blocks of $(block latency microphone) and $(block latency loudspeaker) ms"
-    seen=$(sed -nE 's/.* seen ([0-9.]+) ms after it, in the next picture.*/\1/p' "$workdir/latency.err" | xargs)
+    seen=$(sed -nE 's/.* seen ([0-9.]+) ms after it, in the next frame.*/\1/p' "$workdir/latency.err" | xargs)
     bar "breath to picture" "$(echo "$seen" | wc -w) == 9" "$seen ms after its first wind, each time in the next picture"
 }
 
