@@ -182,7 +182,7 @@ fn an_outline_that_is_no_plate_is_refused_with_its_position() {
         ("<image id=\"photo\" href=\"a.png\"/>", "is a picture", "trace"),
         ("<use href=\"#a\"/>", "copy of another", "nlink"),
         ("<line id=\"stick\" x1=\"0\" y1=\"0\" x2=\"9\" y2=\"9\"/>", "is a line", "closed outline"),
-        ("<rect id=\"wide\" width=\"9parsec\" height=\"3\"/>", "no length", "id=\"wide\""),
+        ("<rect id=\"wide\" width=\"9parsec\" height=\"3\"/>", "is not a length", "id=\"wide\""),
         ("<g transform=\"spin(3)\"><rect width=\"90\" height=\"90\"/></g>", "transform", "<g>"),
         ("", "no closed shape", "closed path"),
     ];
