@@ -5,12 +5,15 @@
 set -euo pipefail
 self=$(readlink -f "$0")
 cd "$(dirname "$self")/.."
+# Folder of the built program.
+programs="${CARGO_TARGET_DIR:-target}/ci"
 # Folder for the output and the exit code of each part.
 results=out/check
 everything=(format language headless build exhibits suite live)
 
 compiled() { local verb=$1; shift; RUSTC_WORKSPACE_WRAPPER=$PWD/tests/compile.sh cargo "$verb" --profile ci --workspace --locked "$@"; }
-format()   { cargo fmt --all -- --check; }
+# Rust as rustfmt writes it; scripts without what shellcheck warns of, such as a variable that nothing sets.
+format()   { cargo fmt --all -- --check && git grep -lE '^#!/.*sh$' | xargs shellcheck --external-sources --severity=warning; }
 # Names and sentences: no old word, no sentence that is too long.
 language() { tests/language.py; }
 # Without the kiosk: the two packages in which it is a feature.
@@ -20,8 +23,8 @@ build()    { compiled build "$@" --bins --example correlate; }
 # The same for a part that runs alone.
 program()  { [ -n "${SOFFIO_BUILT:-}" ] || build --quiet; }
 suite()    { compiled test --quiet; }
-exhibits() { program && "$built/soffio" check exhibits kiosk-config/kiosk.toml; }
-live()     { program && tests/live/lanes.sh "$built/soffio"; }
+exhibits() { program && "$programs/soffio" check exhibits kiosk-config/kiosk.toml; }
+live()     { program && tests/live/lanes.sh "$programs/soffio"; }
 deb()      { tests/package.sh; }
 
 # Lints and documents alone, without compiling.
