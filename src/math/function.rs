@@ -32,7 +32,7 @@ pub enum Function {
         keys: Vec<(f64, f64)>,
         /// What happens between two keys.
         interpolation: Interpolation,
-        /// Begins anew after the last key; otherwise the last value stays.
+        /// Repeats from the first key after the last one; otherwise the last value stays.
         repeat: bool,
     },
     /// A sine about a mean.

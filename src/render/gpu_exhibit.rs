@@ -288,7 +288,7 @@ impl GpuExhibit {
         1 + u32::from(!self.casters.is_empty()) + u32::from(!self.plate_shadows.is_empty())
     }
 
-    /// Has the shadows drawn anew with the next frame.
+    /// Has the shadows drawn again with the next frame.
     pub(super) fn invalidate_shadows(&mut self) {
         self.last_drawn.frames.clear();
     }

@@ -122,7 +122,7 @@ impl BreathSource {
         (estimate.speed.max(self.hold_speed).max(self.controller_speed).max(commanded), estimate)
     }
 
-    /// Feeds the microphone to the detector. Without a microphone the detector is dropped: it adapts anew later.
+    /// Feeds the microphone to the detector. Without a microphone the detector is dropped: a new one adapts later.
     fn detect(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
         let Some(microphone) = microphone else {
             self.detector = None;

@@ -297,7 +297,7 @@ mod callback {
             }
         }
         assert_eq!(late, 0);
-        // After a standstill of a second the map starts anew.
+        // After a standstill of a second the map starts again.
         clock.look(10_000_000, 10_050_000, 480);
         assert_eq!(clock.frame(10_000_000), 10_050_680);
     }

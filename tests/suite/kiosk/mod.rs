@@ -402,7 +402,7 @@ mod live {
         assert_eq!(attract.text(), None);
         assert!(attract.step(true, 0.0).commands.is_empty());
         for step in 1..480 {
-            assert!(!attract.step(false, 0.0).active, "the idle time starts anew, step {step}");
+            assert!(!attract.step(false, 0.0).active, "the idle time starts again, step {step}");
         }
         assert!(attract.step(false, 0.0).active);
     }

@@ -404,7 +404,7 @@ fn another_exhibit_gathers_its_parts_and_a_press_ends_the_waiting() {
         stage.step(&still, None);
     }
     assert!(away(&stage, &chimes) < 0.01, "they have gathered");
-    // The same one, saved anew by a curator, is there at once.
+    // The same one, saved again by a curator, is there at once.
     stage.swap(chimes.clone(), None);
     stage.step(&still, None);
     assert!(away(&stage, &chimes) < 0.01);

@@ -160,13 +160,13 @@ impl Thread {
         if before.controllers != self.site.controllers {
             self.controllers = Controllers::start(&self.site.controllers);
         }
-        let anew = before.settings != self.site.settings;
-        if anew {
+        let changed = before.settings != self.site.settings;
+        if changed {
             self.files.end(&self.stage);
         }
         self.stage.reconfigure(Settings { clock: local_time(), ..self.site.settings }, self.site.idle_s);
-        if anew {
-            self.begin_anew();
+        if changed {
+            self.restart();
         }
     }
 
@@ -176,12 +176,12 @@ impl Thread {
         self.motion.swap(exhibit.motion);
         self.files.end(&self.stage);
         self.stage.swap(exhibit, local_time());
-        self.begin_anew();
+        self.restart();
     }
 
-    fn begin_anew(&mut self) {
+    fn restart(&mut self) {
         self.files.begin(&self.stage);
-        self.publisher.begin_anew(&self.stage);
+        self.publisher.restart(&self.stage);
     }
 
     fn publish(&mut self, due: Instant, hears: bool) {

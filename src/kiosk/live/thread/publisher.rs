@@ -44,7 +44,7 @@ impl Publisher {
     }
 
     /// The exhibit restarts: captions, history and onset are cleared.
-    pub(super) fn begin_anew(&mut self, stage: &Stage) {
+    pub(super) fn restart(&mut self, stage: &Stage) {
         self.captions = Captions::default();
         self.history = SnapshotHistory::new(stage.snapshot());
         self.onset = None;

@@ -39,7 +39,7 @@ pub(super) struct SparseFactor {
     pub begins: Vec<usize>,
     /// The node of each item.
     pub items: Vec<usize>,
-    /// Its first column in the panel; counted anew where sizes change.
+    /// Its first column in the panel; counted again where sizes change.
     pub columns: Vec<usize>,
     /// Where the runs of each item begin, and the runs.
     pub run_begins: Vec<usize>,
