@@ -278,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_kept_comes_back_and_what_is_broken_begins_anew() {
+    fn what_is_kept_comes_back_and_what_is_broken_starts_again() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("in/state");
         let (mut store, mut state) = StateStore::open(Some(path.clone()));

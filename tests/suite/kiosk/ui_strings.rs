@@ -201,7 +201,7 @@ fn whatever_a_file_holds_it_is_reported_and_never_stops_the_kiosk() {
 }
 
 #[test]
-fn a_text_is_formatted_anew_only_where_a_variable_differs() {
+fn a_text_is_formatted_again_only_where_a_variable_differs() {
     let strings = texts().get("it");
     let format = |count: u64, limit: &'static str| {
         strings
