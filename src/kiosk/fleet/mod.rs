@@ -162,7 +162,7 @@ impl Fleet {
             counters.blows.insert(name, before + count);
         }
         if lived >= SETTLED {
-            self.persisted.life = RunPhase::Settled;
+            self.persisted.phase = RunPhase::Settled;
         }
         self.persisted.on_show.clone_from(&frame.exhibit.id);
         // Before the first step the simulation does not know the settings of staff.

@@ -89,8 +89,8 @@ pub struct LoudnessStatus {
     pub night: bool,
     /// What decides it.
     pub by: NightBy,
-    /// Attenuation because the last minute was too loud, dB.
-    pub eased_db: f64,
+    /// Attenuation that keeps the exposure limit, dB: above 0 after a minute that was too loud.
+    pub exposure_attenuation_db: f64,
     /// A-weighted level of the last minute and of the day, dB of a full-scale sine; −∞ for silence.
     pub level_db: [f64; 2],
     /// The same at the listening position, dB(A), where the kiosk is calibrated.
@@ -203,7 +203,7 @@ impl Loudness {
             muted: self.volume.is_muted(),
             night: self.night,
             by: self.by,
-            eased_db: self.volume.attenuation_db(),
+            exposure_attenuation_db: self.volume.attenuation_db(),
             level_db,
             laeq_db: level_db.map(|level| self.volume.spl(level)),
         }

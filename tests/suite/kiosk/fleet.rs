@@ -97,8 +97,7 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
     };
     let mut exported = text(&frame(RunStatus::default()), &numbers);
     // These are exported only once they have a value.
-    exported +=
-        "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
+    exported += "kiosk_audio_self_test_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
     let mut queried = 0;
     for file in ["soffio.rules.yml", "soffio.grafana.json"] {

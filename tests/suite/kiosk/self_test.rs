@@ -1,4 +1,4 @@
-//! The nightly chirp in simulated rooms: a delay, reflections, a filter for what is wrong, the room's noise.
+//! The nightly audio self-test in simulated rooms: a delay, reflections, a filter for what is wrong, the room's noise.
 
 use soffio_config::{Config, Day, TimeOfDay};
 use soffio_devices::audio::output;
@@ -123,13 +123,13 @@ fn somebody_who_cleans_beside_it_alarms_nobody() {
     let heard = recorded(&sweep(RATE), Way { noise: 1.0, ..CLEAN }, 3);
     let verdict = history.record(&Ok(measure_response(&heard, RATE)), String::new()).clone();
     assert!(matches!(verdict, Verdict::Noisy | Verdict::Unheard), "{verdict:?}");
-    assert!(history.clean_db.is_empty());
+    assert!(history.reference_db.is_empty());
 }
 
 #[test]
 fn a_microphone_with_a_clock_of_its_own_hears_the_same() {
     let history = settled();
-    let usual = history.clean_db[0];
+    let usual = history.reference_db[0];
     // Ninety millionths fast.
     let heard = recorded(&sweep(RATE + 4), CLEAN, 5);
     let levels = measure_response(&heard, RATE).levels_db;
@@ -184,7 +184,7 @@ fn without_a_device_it_ends_and_says_which() {
 }
 
 #[test]
-fn it_chirps_once_a_day_and_waits_for_whoever_is_there() {
+fn it_runs_once_a_day_and_waits_for_whoever_is_there() {
     let mut fleet = Fleet::start(StateStore::default(), PersistedState::default(), false, &Config::default());
     let day = |day| Day { year: 2027, month: 3, day, weekday: 0 };
     let at = Some(TimeOfDay::from_minutes(23 * 60 + 40));
