@@ -35,7 +35,7 @@ use std::thread::JoinHandle;
 
 pub use clock::ClockMap;
 pub use input::MicrophoneSamples;
-pub use knobs::Knobs;
+pub use knobs::{Knobs, PlayedEnergy};
 pub use reference::ReferenceTap;
 pub use soffio_config::AudioSettings;
 pub use speech_mixer::{LOUDEST, Utterance};

@@ -46,14 +46,23 @@ pub struct MetricsInput<'a> {
     pub persisted: &'a PersistedState,
     /// Times between frames of this run.
     pub frames: &'a Histogram,
-    /// Safe mode?
+    /// Does the kiosk run in safe mode?
     pub safe: bool,
     /// Was the last reloaded file, a configuration or an exhibit, valid?
     pub reloads: bool,
-    /// Breaths for which a foam lasts; 0: not counted.
+    /// Number of breaths after which the microphone's foam is changed; 0: no limit.
     pub foam_lasts: u32,
-    /// Id and version of the exhibit on show.
-    pub content: (&'a str, &'a str),
+    /// The exhibit on show.
+    pub content: ContentVersion<'a>,
+}
+
+/// An exhibit in the version that is on show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ContentVersion<'a> {
+    /// Id of the exhibit.
+    pub exhibit: &'a str,
+    /// Hash of its sidecar, in hexadecimal digits.
+    pub version: &'a str,
 }
 
 /// The metrics as text.
@@ -72,7 +81,7 @@ fn machine(page: &mut MetricsText, frame: &LiveState, numbers: &MetricsInput) {
     page.number("starts_total", "counter", "Starts of the kiosk", numbers.persisted.starts as f64);
     page.number("safe_mode", "gauge", "Safe mode after a crash loop", flag(numbers.safe));
     page.number("last_reload_success", "gauge", "1 if the last reloaded file was valid", flag(numbers.reloads));
-    let labels: [(&str, &str); 2] = [("exhibit", numbers.content.0), ("version", numbers.content.1)];
+    let labels: [(&str, &str); 2] = [("exhibit", numbers.content.exhibit), ("version", numbers.content.version)];
     page.labelled("content_info", "gauge", "What is on show", &[(&labels, 1.0)]);
     page.histogram("frame_seconds", "Time between two frames", FRAME_S, numbers.frames);
     page.number("physics_step_seconds", "gauge", "Recent mean time of a simulation step", load.step_s);

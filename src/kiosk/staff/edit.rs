@@ -72,22 +72,32 @@ fn item_numbers(item: &Item, place: &mut Vec<Step>, found: &mut Vec<Number>) {
             place.pop();
         }
     } else if !matches!(place.last(), Some(Step::Key(name)) if NAMES.contains(&name.as_str()))
-        && let Some((value, unit, whole)) = item.as_value().and_then(number)
+        && let Some(WrittenNumber { value, unit, whole }) = item.as_value().and_then(number)
     {
         found.push(Number { place: place.clone(), of: String::new(), name: String::new(), value, unit, whole });
     }
 }
 
-/// Number, unit, and whether it is whole.
-fn number(value: &Value) -> Option<(f64, String, bool)> {
+/// A number as it is written in the file.
+struct WrittenNumber {
+    value: f64,
+    /// Empty for a bare number.
+    unit: String,
+    /// Is it written as an integer?
+    whole: bool,
+}
+
+/// The finite number that a value is, with its unit.
+fn number(value: &Value) -> Option<WrittenNumber> {
+    let bare = |value, whole| WrittenNumber { value, unit: String::new(), whole };
     match value {
-        Value::Integer(value) => Some((*value.value() as f64, String::new(), true)),
-        Value::Float(value) => Some((*value.value(), String::new(), false)).filter(|(value, ..)| value.is_finite()),
+        Value::Integer(value) => Some(bare(*value.value() as f64, true)),
+        Value::Float(value) => Some(bare(*value.value(), false)).filter(|number| number.value.is_finite()),
         Value::String(text) => {
             let (number, unit) = text.value().trim().split_once(' ')?;
             let value: f64 = number.parse().ok().filter(|value: &f64| value.is_finite())?;
             let known = unit.chars().all(|c| c.is_alphanumeric() || "/% ²³".contains(c));
-            known.then(|| (value, unit.trim().to_owned(), false))
+            known.then(|| WrittenNumber { value, unit: unit.trim().to_owned(), whole: false })
         }
         _ => None,
     }
@@ -131,7 +141,9 @@ fn called(document: &Table, place: &[Step]) -> (String, String) {
 pub fn with_number(text: &str, place: &[Step], value: f64) -> Result<String, String> {
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     let old = value_at(document.as_table_mut(), place).ok_or("the number is not in the file any more")?;
-    let Some((_, unit, whole)) = number(old) else { return Err("the value is no number any more".into()) };
+    let Some(WrittenNumber { unit, whole, .. }) = number(old) else {
+        return Err("the value is no number any more".into());
+    };
     let value = four_digits(value);
     let new = match unit.as_str() {
         "" if whole => Value::Integer(Formatted::new(value.round() as i64)),

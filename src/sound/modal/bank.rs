@@ -212,8 +212,8 @@ impl Bank {
                 }
                 let decay = (self.partials[n].decay + self.damping[n]).min(MAX_DECAY);
                 let omega = 2.0 * PI * self.partials[n].frequency;
-                let (k, ring) = pulse.ringing(decay, omega);
-                let (k, ring) = (k.map(|x| a * x), ring.map(|x| a * x));
+                let response = pulse.response(decay, omega);
+                let (k, ring) = (response.during.map(|x| a * x), response.after.map(|x| a * x));
                 let sinusoid = pulse.shared(decay, omega, k);
                 (contact[0][0][i], contact[0][1][i]) = (k[0], k[1]);
                 (contact[1][0][i], contact[1][1][i]) = (ring[0], ring[1]);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use soffio_config::{Chord, Config, FILE, LIMITS};
+use soffio_config::{Chord, Config, FILE, LIMITS, Modifiers};
 
 /// The file that is shipped.
 fn shipped() -> String {
@@ -139,8 +139,10 @@ fn a_missing_configuration_says_which_and_what_to_do() {
 fn a_chord_needs_two_modifiers_and_one_key() {
     let chord: Chord = "alt + CTRL+s".parse().expect("a chord");
     assert_eq!(chord.to_string(), "Ctrl+Alt+S");
-    assert!(chord.matches(true, true, false, "S"));
-    assert!(!chord.matches(true, true, true, "S") && !chord.matches(true, false, false, "S"));
+    let (three, one) =
+        (Modifiers { shift: true, ..Modifiers::CTRL_ALT }, Modifiers { alt: false, ..Modifiers::CTRL_ALT });
+    assert!(chord.matches(Modifiers::CTRL_ALT, "S"));
+    assert!(!chord.matches(three, "S") && !chord.matches(one, "S"));
     for bad in ["S", "Ctrl+S", "Ctrl+Alt", "Ctrl+Alt+S+T", "Ctrl+Alt+F13", "Ctrl+Alt+é", ""] {
         assert!(bad.parse::<Chord>().is_err(), "{bad:?} is no chord");
     }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use soffio_config::CLEANING_S;
-use soffio_config::{Chord, Day, Opening};
+use soffio_config::{Chord, Day, Modifiers, Opening};
 use soffio_detector::generate::{self, BreathShape};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_kiosk::step::controls::Controls;
@@ -20,7 +20,7 @@ struct Chords([Chord; 4]);
 
 impl Chords {
     fn new() -> Self {
-        Self(["S", "O", "M", "N"].map(|key| Chord::new(true, true, false, key)))
+        Self(["S", "O", "M", "N"].map(|key| Chord::new(Modifiers::CTRL_ALT, key)))
     }
 
     fn keys(&self) -> Keys<'_> {
@@ -30,7 +30,8 @@ impl Chords {
 }
 
 fn key(name: &str, chord: bool) -> Signal {
-    Signal::Key(Key { name: name.into(), pressed: true, repeat: false, ctrl: chord, alt: chord, shift: false })
+    let modifiers = if chord { Modifiers::CTRL_ALT } else { Modifiers::default() };
+    Signal::Key(Key { name: name.into(), pressed: true, repeat: false, modifiers })
 }
 
 /// Everything a hand can do.

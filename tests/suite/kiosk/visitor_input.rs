@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use soffio_config::Chord;
+use soffio_config::{Chord, Modifiers};
 use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
 
 fn chord() -> Chord {
@@ -16,7 +16,7 @@ fn key(name: &str, pressed: bool) -> Signal {
 /// The keys of a site, with a staff chord and a key to blow of its own.
 fn keys<'a>(staff: &'a Chord, blow: &'a str) -> Keys<'a> {
     static OTHERS: LazyLock<[Chord; 3]> =
-        LazyLock::new(|| ["M", "N", "O"].map(|key| Chord::new(true, true, false, key)));
+        LazyLock::new(|| ["M", "N", "O"].map(|key| Chord::new(Modifiers::CTRL_ALT, key)));
     Keys { staff, mute: &OTHERS[0], night: &OTHERS[1], open: &OTHERS[2], blow, read: "R", menu: false }
 }
 
@@ -47,7 +47,7 @@ fn plus_and_minus_turn_the_volume_and_two_chords_are_the_staffs() {
     for (name, requested) in
         [("M", Request::Mute), ("N", Request::Night), ("O", Request::Open), ("S", Request::ToggleStaff)]
     {
-        let key = Key { name: name.into(), pressed: true, ctrl: true, alt: true, ..Key::default() };
+        let key = Key { name: name.into(), pressed: true, modifiers: Modifiers::CTRL_ALT, ..Key::default() };
         assert_eq!(send(&mut visitor, Signal::Key(key)), Some(requested), "{name}");
     }
     assert!(!holds(&visitor));
@@ -130,7 +130,8 @@ fn no_key_of_a_visitor_closes_the_kiosk() {
     for name in names {
         for held in 0..7 {
             let (ctrl, alt, shift) = (held & 1 > 0, held & 2 > 0, held & 4 > 0);
-            let key = Key { name: name.into(), pressed: true, repeat: false, ctrl, alt, shift };
+            let key =
+                Key { name: name.into(), pressed: true, repeat: false, modifiers: Modifiers { ctrl, alt, shift } };
             let requested = send(&mut visitor, Signal::Key(key));
             let staff = name == "S" && ctrl && alt && !shift;
             let page = name == "Tab" && !ctrl && !alt;

@@ -20,6 +20,7 @@ use super::step_scheduler::StepScheduler;
 use crate::step::command::Batch;
 use crate::step::controls::Controls;
 use crate::step::stage::Stage;
+use crate::venue::loudness::KioskActivity;
 use crate::venue::site::Site;
 use files::Files;
 use microphone_input::MicrophoneInput;
@@ -147,7 +148,8 @@ impl Thread {
             self.playback.audio.say(&speech);
         }
         let self_test_db = is_testing.then_some(self.site.audio.volume_db);
-        self.playback.set_loudness(loudness, (self.stage.attracts(), controls.closed), self_test_db);
+        let activity = KioskActivity { attracts: self.stage.attracts(), closed: controls.closed };
+        self.playback.set_loudness(loudness, activity, self_test_db);
         let look = controls.look;
         self.publisher.inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
         Ok(rate.is_some() && !self.publisher.load.microphone.is_silent() || self.recorded)

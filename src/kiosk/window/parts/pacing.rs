@@ -35,6 +35,15 @@ pub(crate) struct Counts {
     pub dark: u64,
 }
 
+/// What moves in a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameMotion {
+    /// Is the exhibit idle?
+    pub still: bool,
+    /// Does something on the page fade, fill or close, or is a panel open?
+    pub page_moves: bool,
+}
+
 /// A started frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameStart {
@@ -79,7 +88,8 @@ impl Pacing {
     }
 
     /// Starts a frame; the next one is due after `least` seconds.
-    pub fn begin(&mut self, now: Instant, still: bool, page_moves: bool, least: f64) -> FrameStart {
+    pub fn begin(&mut self, now: Instant, motion: FrameMotion, least: f64) -> FrameStart {
+        let FrameMotion { still, page_moves } = motion;
         let (last, rested) = (self.clock.last, self.idle.is_idle());
         let rests = self.idle.update(self.clock.seconds(now), FrameActivity { still, page_moves, inputs: self.inputs });
         let shown = self.clock.tick(now, if rests { least.max(IDLE_FRAME_S) } else { least });

@@ -25,6 +25,15 @@ pub(crate) struct VisitState {
     visited: bool,
 }
 
+/// Who is there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Presence {
+    /// Does attract mode play?
+    pub attracts: bool,
+    /// Is a visitor present?
+    pub visited: bool,
+}
+
 impl VisitState {
     /// Nobody has come yet; `breath_time` is the breath of the day.
     pub fn new(config: &Config, breath_time: BreathTime) -> Self {
@@ -58,7 +67,8 @@ impl VisitState {
     }
 
     /// Is the visit over? It ends when attract mode begins or, without attract mode, when nobody is present any more.
-    pub fn ends(&mut self, attracts: bool, visited: bool, config: &Config) -> bool {
+    pub fn ends(&mut self, presence: Presence, config: &Config) -> bool {
+        let Presence { attracts, visited } = presence;
         let leaves = if config.attract.enabled { attracts && !self.attracts } else { self.visited && !visited };
         self.visited = visited;
         if attracts != self.attracts {
