@@ -208,6 +208,7 @@ impl Scene {
 }
 
 impl PipelineKey {
+    /// The plainest material: opaque, one-sided, without layers, details or outlines.
     const PLAIN: Self =
         Self { kind: SurfaceKind::Opaque, double_sided: false, layers: false, details: false, outlined: false };
 

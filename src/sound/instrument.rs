@@ -12,7 +12,7 @@ use super::{InstrumentSpec, Strike, timbre};
 use soffio_math::noise::Random;
 use soffio_math::{exp, ln};
 
-/// Least mass of a body, kg.
+/// Least mass of a body, kg: a milligram. It keeps contact times and levels finite.
 const MIN_MASS: f64 = 1e-6;
 
 /// A compiled instrument.

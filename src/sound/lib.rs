@@ -34,6 +34,7 @@
 //!
 //! `cargo run -p soffio-sound --example chime` rings a chime tube and prints its peak and its decay.
 
+mod bounds;
 mod controls;
 mod excitation;
 mod graph;

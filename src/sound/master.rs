@@ -11,7 +11,7 @@ use super::limiter::Limiter;
 use super::night_mode::{NightMode, Transition};
 use super::reverb::{Reverb, ReverbSpec};
 
-/// Frames of reverb computed at once.
+/// Frames of reverb computed at once: buffers of 2 KiB on the stack.
 const CHUNK: usize = 256;
 
 pub(super) struct Master {

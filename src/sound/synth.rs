@@ -29,16 +29,16 @@ use soffio_math::{PI, sincos};
 
 /// Default bound of the ringing partials: two and a half times the heaviest scene.
 pub const MOST_PARTIALS: usize = 16_384;
-/// Most voices of impacts at once. One more steals the quietest.
+/// Most voices of impacts at once; one more steals the quietest. It bounds the work; more are heard as one texture.
 pub const MAX_VOICES: usize = 48;
-/// Additional voices that fade after being stolen.
+/// Additional voices that fade after being stolen: a third of the voices can be stolen within one fade.
 pub const FADING_VOICES: usize = 16;
-/// Commands that can wait.
+/// Commands that can wait for their sample: several simulation steps of the busiest scene.
 pub const MAX_COMMANDS: usize = 1024;
 
 /// Fade of a stolen voice, s: short, yet without a click.
 const STEAL_FADE: f64 = 0.003;
-/// [`SoundCommand::Silence`] takes this long, s.
+/// Duration of the fade of [`SoundCommand::Silence`], s: no click, and over before the next exhibit sounds.
 const SILENCE_FADE: f64 = 0.04;
 /// Plays the instruments of one exhibit.
 pub struct Synth {

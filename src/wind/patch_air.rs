@@ -11,7 +11,8 @@ use soffio_geometry::rays::Occluders;
 use soffio_math::DVec3;
 use soffio_math::lanes::WIDTH;
 
-/// Slower wind is taken for still air and casts no ray, m/s.
+/// Speed below which a wind is taken for still air and casts no ray, m/s: its force is a millionth of that of a breath
+/// of 10 m/s.
 pub(crate) const STILL_AIR: f64 = 0.01;
 
 /// The breath's air at one patch.

@@ -103,7 +103,7 @@ fn base_language(language: &str) -> &str {
 /// Synthesizes texts one after the other as one sound.
 fn synthesize(program: &str, texts: &[SpokenText], sample_rate: u32) -> Result<Utterance, String> {
     let mut all = Vec::new();
-    for SpokenText { text, language } in texts.iter().filter(|spoken| !spoken.text.trim().is_empty()) {
+    for SpokenText { text, language } in texts.iter().filter(|said| !said.text.trim().is_empty()) {
         let (samples, rate) = parse(&run_program(program, base_language(language), text)?)?;
         all.extend(resample(&samples, rate, sample_rate));
     }

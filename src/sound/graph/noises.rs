@@ -14,11 +14,11 @@ use crate::timbre::{Noise, NoiseKind};
 use soffio_math::noise::{hash, perlin1};
 use soffio_math::{PI, exp, ln};
 
-/// Distance from one pole to the next: two octaves. The lowest is at 20 Hz at 48 kHz.
+/// Ratio of one pole's frequency to the next: two octaves, for a ripple below 0.5 dB. The lowest is at 20 Hz at 48 kHz.
 const APART: f64 = 4.0;
-/// The lowest pole, of the sample rate.
+/// Frequency of the lowest pole over the sample rate: 20 Hz at 48 kHz, the lower end of hearing.
 const LOWEST: f64 = 20.0 / 48_000.0;
-/// Brings the noise to the power of white noise: 1/√ of the mean of |H|², which is 1 at 0 Hz.
+/// Gain that brings the noise to the power of white noise: 1/√ of the mean of |H|², which is 1 at 0 Hz.
 const MAKE_UP: f64 = 14.2;
 
 /// White noise made pink.

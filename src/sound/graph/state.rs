@@ -5,7 +5,7 @@ use super::filter::StateVariable;
 use crate::timbre::LONGEST_DELAY;
 use soffio_math::noise::Random;
 
-/// Sections of the pink filter.
+/// Sections of the pink filter: one every two octaves from 20 Hz, the last beyond 20 kHz.
 pub(super) const PINK: usize = 6;
 
 /// What one operator of one voice remembers.

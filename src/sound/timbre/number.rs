@@ -15,9 +15,9 @@ use serde::{Deserialize, Deserializer};
 
 use soffio_math::pow;
 
-/// Most factors, and most terms, of one number.
+/// Most factors, and most terms, of one number: bounds the work of a reading.
 pub const MAX_FACTORS: usize = 3;
-/// No number leaves these bounds.
+/// Bound of the magnitude of every number, in its own unit: beyond it a file is wrong.
 const BOUND: f64 = 1e12;
 
 /// A number of a preset: fixed, or following the motion.

@@ -35,7 +35,7 @@ pub(crate) struct Counts {
     pub dark: u64,
 }
 
-/// What moves in a frame.
+/// Motion of exhibit and page in a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameMotion {
     /// Is the exhibit idle?
