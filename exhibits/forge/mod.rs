@@ -48,6 +48,9 @@ pub struct Artifact {
 }
 
 /// Generates all files.
+///
+/// # Errors
+/// A sound file cannot be encoded.
 pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
     let (_, model) = steel_fish::glb();
     // Speeds at the lips of a gentle, a normal and a strong breath; the seeds make them differ.

@@ -67,7 +67,7 @@ pub struct WindSample {
 }
 
 impl Simulation {
-    /// Inspects the present moment. Changes nothing of the run.
+    /// Present values for the staff panel, as far as `scope` asks for them. The run itself is not changed.
     pub fn inspect(&mut self, scope: InspectionScope) -> Inspection {
         let empty = Inspection { step: self.clock.step, ..Inspection::default() };
         match scope {

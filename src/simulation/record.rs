@@ -55,9 +55,9 @@ struct Head {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Begin {
-    /// Id of the exhibit.
+    /// Id of the exhibit: the name of its folder.
     pub exhibit: String,
-    /// Constants of the run.
+    /// Constants of the run, which a replay needs.
     pub settings: Settings,
 }
 

@@ -51,10 +51,15 @@ struct Modal {
 
 impl Instrument {
     /// `shared` is that of the synth.
+    ///
+    /// # Errors
+    /// There is no such preset, or it does not fit the body.
     pub fn compile(spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         Self::from_preset(&Preset::shipped(&spec.timbre)?, spec, shared)
     }
 
+    /// # Errors
+    /// The preset does not fit the body.
     pub fn from_preset(preset: &Preset, spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         let radiator = Radiator::new(&spec.body, &spec.material);
         Ok(Self {
@@ -143,6 +148,9 @@ impl Instrument {
 }
 
 /// The partials of a timbre on a body, in ascending order; none where nothing rings.
+///
+/// # Errors
+/// The preset does not fit the body.
 pub fn partials(preset: &Preset, spec: &InstrumentSpec) -> Result<Vec<Mode>, TimbreError> {
     let modes_and_outline = preset
         .modal()

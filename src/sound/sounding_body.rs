@@ -27,15 +27,17 @@ const MAX_STRIKES: u32 = 6;
 /// Time of the synth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SynthClock {
-    /// s.
+    /// Time since sample 0, s.
     pub time: f64,
-    /// Hz.
+    /// Sample rate, Hz.
     pub sample_rate: f64,
 }
 
 /// The modal part of one instrument.
 pub(super) struct SoundingBody {
+    /// Index of its instrument in the synth.
     pub instrument: usize,
+    /// Its partials.
     pub bank: Bank,
     operators: Box<[OperatorState; MAX_NODES]>,
     inputs: Inputs,

@@ -72,6 +72,9 @@ impl Synth {
     /// A silent synth at sample 0.
     ///
     /// Solves the plates' modes, so it takes milliseconds per instrument; everything afterwards is real-time.
+    ///
+    /// # Errors
+    /// An instrument names no shipped preset, or its preset does not fit its body.
     pub fn new(sample_rate: u32, instruments: &[InstrumentSpec], seed: u64) -> Result<Self, TimbreError> {
         let mut shared = Shared::default();
         let mut compiled = Vec::with_capacity(instruments.len());
@@ -82,6 +85,9 @@ impl Synth {
     }
 
     /// A synth of one instrument with a preset that need not be a shipped one.
+    ///
+    /// # Errors
+    /// The preset does not fit the body.
     pub fn with_preset(
         sample_rate: u32,
         preset: &Preset,
@@ -92,6 +98,9 @@ impl Synth {
     }
 
     /// A synth of instruments with presets that need not be shipped ones.
+    ///
+    /// # Errors
+    /// A preset does not fit its body.
     pub fn with_presets(
         sample_rate: u32,
         instruments: &[(&Preset, &InstrumentSpec)],

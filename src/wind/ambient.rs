@@ -30,7 +30,7 @@ use soffio_math::{DVec3, PI, exp, sin};
 /// One ambient wind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wind {
-    /// Unique in the exhibit.
+    /// Name, unique in the exhibit.
     pub name: String,
     /// Its velocity field.
     pub kind: WindKind,
@@ -47,14 +47,14 @@ pub enum WindKind {
     Fan {
         /// Centre of the disc, world, m.
         at: DVec3,
-        /// Unit.
+        /// Direction of the jet, unit.
         direction: DVec3,
-        /// m.
+        /// Diameter of the disc, m.
         diameter: f64,
     },
     /// Parallel flow.
     Draught {
-        /// Unit.
+        /// Direction of the flow, unit.
         direction: DVec3,
         /// Where it enters; `None`: it is everywhere.
         inlet: Option<Inlet>,
@@ -73,9 +73,9 @@ pub enum WindKind {
 /// Where a draught enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inlet {
-    /// World, m.
+    /// Centre of the inlet, world, m.
     pub center: DVec3,
-    /// Full width at half the speed, m.
+    /// Width of the draught at the inlet, m: full width at half of the speed on its axis.
     pub width: f64,
 }
 

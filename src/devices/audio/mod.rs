@@ -90,7 +90,7 @@ impl SoundDelay {
     }
 }
 
-/// State of one device.
+/// State of an audio device, microphone or output, as the status page and the metrics show it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum DeviceState {
     /// Not opened yet.
@@ -100,10 +100,10 @@ pub enum DeviceState {
     Ok {
         /// Name in the system.
         name: String,
-        /// Hz.
+        /// Sample rate, Hz.
         sample_rate: u32,
     },
-    /// Missing for this reason; opening is retried.
+    /// Missing or failed, for this reason; opening is retried.
     Missing(String),
     /// Closed by the kiosk: outside opening hours, or at a site without breath.
     Closed,

@@ -69,7 +69,7 @@ pub struct PersistedState {
     /// Results of the audio self-test, and the state of the foam.
     #[serde(alias = "care")]
     pub self_test: SelfTestHistory,
-    /// Counters over all runs.
+    /// Counters over all runs since the file was deleted.
     #[serde(alias = "tally")]
     pub counters: Counters,
 }

@@ -38,6 +38,9 @@ pub struct Live {
 impl Live {
     /// Starts the thread, for a picture of this aspect (width over height). `wake` is called in the step in which an idle
     /// picture begins to move.
+    ///
+    /// # Errors
+    /// The thread, a record or a trace cannot be started; the reason.
     pub fn start(options: Options, aspect: f64, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
         let site = &options.site;
         let settings = Settings { clock: local_time(), ..site.settings };
@@ -87,6 +90,9 @@ impl Live {
     }
 
     /// Ends the run and waits for its files.
+    ///
+    /// # Errors
+    /// A file cannot be completed, or the thread has failed; the reason.
     pub fn finish(mut self) -> Result<Report, String> {
         self.join().unwrap_or_else(|| Ok(Report::default()))
     }

@@ -41,7 +41,10 @@ pub struct Number {
     pub whole: bool,
 }
 
-/// All numbers of a sidecar that a curator may change, in the order of the file. The error is a syntax error.
+/// All numbers of a sidecar, `text` in TOML, that a curator may change, in the order of the file.
+///
+/// # Errors
+/// The text is no TOML; the parser's message.
 pub fn numbers(text: &str) -> Result<Vec<Number>, String> {
     let document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     let mut found = Vec::new();
@@ -137,7 +140,10 @@ fn called(document: &Table, place: &[Step]) -> (String, String) {
     (of, rest.collect::<Vec<_>>().join("."))
 }
 
-/// The text with another number at this place, rounded to four digits.
+/// The text with `value` at this place, rounded to four digits, in the unit that stands there.
+///
+/// # Errors
+/// The text is no TOML, or has no number at this place.
 pub fn with_number(text: &str, place: &[Step], value: f64) -> Result<String, String> {
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     let old = value_at(document.as_table_mut(), place).ok_or("the number is not in the file any more")?;
@@ -159,12 +165,18 @@ pub fn four_digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// The text with another number at a key of a table; missing tables and keys are added.
+/// The text with `value`, rounded to four digits, at a key of a table. A missing table or key is added.
+///
+/// # Errors
+/// The text is no TOML, or `table` is not a table.
 pub fn with_key(text: &str, table: &str, key: &str, value: f64) -> Result<String, String> {
     with_value(text, table, key, |_| Value::Float(Formatted::new(four_digits(value))))
 }
 
 /// The text with another list of strings at a key of a table. Remaining entries keep their comments.
+///
+/// # Errors
+/// The text is no TOML, or `table` is not a table.
 pub fn with_list(text: &str, table: &str, key: &str, entries: &[String]) -> Result<String, String> {
     with_value(text, table, key, |old| {
         let old = old.and_then(Value::as_array).cloned().unwrap_or_default();
@@ -237,7 +249,10 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Changes a file as it stands now. The error names it and says why.
+    /// Changes a file as it stands now and keeps the old text for [`Self::undo`].
+    ///
+    /// # Errors
+    /// The file cannot be read, changed or written; the message names it.
     pub fn make(&mut self, file: &Path, change: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
         let says = |why: String| format!("{}: {why}", file.display());
         let before = std::fs::read_to_string(file).map_err(|error| says(error.to_string()))?;
@@ -257,7 +272,10 @@ impl Changes {
         self.done.len()
     }
 
-    /// Undoes the last change. A file that was changed otherwise since then is left alone, with an error.
+    /// Undoes the last change.
+    ///
+    /// # Errors
+    /// The file has changed since, or cannot be written.
     pub fn undo(&mut self) -> Result<(), String> {
         let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
         let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;

@@ -103,11 +103,11 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Persisted results of self-tests, and the state of the foam.
+/// Results of the audio self-tests and state of the microphone's foam, as they outlast a restart in `state.json`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SelfTestHistory {
-    /// Breaths at the microphone, of all runs, when the foam was changed last.
+    /// Number of breaths at the microphone in all runs until the foam was changed last.
     pub foam_changed_at: u64,
     /// Levels of the reference runs, dB.
     #[serde(alias = "clean_db")]

@@ -11,6 +11,9 @@ use crate::venue::catalog::ExhibitSource;
 
 /// Runs the kiosk until it is ended. Visitors choose among the exhibits of `places`. `interrupted` is set by a signal of the
 /// system.
+///
+/// # Errors
+/// There is no display, or no graphics adapter that can draw to its window.
 pub fn run(
     ground: Launch,
     places: &ExhibitSource,
@@ -25,6 +28,9 @@ pub fn run(
 }
 
 /// The connection to the display; the error is the system's reason.
+///
+/// # Errors
+/// There is no display; the system's reason.
 pub fn event_loop() -> Result<EventLoop<()>, String> {
     EventLoop::new().map_err(|error| error.to_string().rsplit(": ").next().unwrap_or_default().to_owned())
 }

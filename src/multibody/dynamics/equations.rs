@@ -38,7 +38,7 @@ pub(super) enum FactorUse {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointClosing {
     pub factor: FactorUse,
-    /// Close the joints in velocity too.
+    /// Are the joints closed in velocity too?
     pub velocities: bool,
 }
 
@@ -46,9 +46,11 @@ pub(super) struct JointClosing {
 pub(super) struct EquationSetup<'a> {
     /// The joints, evaluated at the start.
     pub system: System,
-    /// The same joints without trains, where there are trains.
+    /// The same joints with gears as single couplings, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
+    /// The springs.
     pub springs: Springs,
+    /// Bodies whose motion is given.
     pub kinematic_bodies: &'a [KinematicBody],
     /// Damping of each body.
     pub damping: &'a [Damping],
@@ -63,7 +65,7 @@ pub(super) struct EquationSetup<'a> {
 pub(super) struct Equations {
     /// The joints.
     pub system: System,
-    /// The same joints without trains, for position-based motion.
+    /// The same joints with gears as single couplings, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
     pub springs: Springs,
     pub kinematic_bodies: Vec<KinematicBody>,

@@ -56,7 +56,9 @@ pub(super) fn put<L: Lanes>(lanes: L, system: &mut System, index: usize, state: 
 
 /// Saves the bodies' state at the start of a substep.
 pub(super) struct Save<'a> {
+    /// All bodies.
     pub bodies: &'a [RigidBody],
+    /// Written: the state of each lane block.
     pub states: &'a mut [SubstepState],
 }
 
@@ -71,7 +73,9 @@ impl LaneKernel for Save<'_> {
 
 /// Restores the bodies' state at the start of the substep.
 pub(super) struct Restore<'a> {
+    /// All bodies; those of awake lane blocks are written.
     pub bodies: &'a mut [RigidBody],
+    /// Saved state of each lane block ([`Save`]).
     pub states: &'a [SubstepState],
 }
 
@@ -86,6 +90,7 @@ impl LaneKernel for Restore<'_> {
 
 /// Writes the blocks' state back to the bodies.
 pub(super) struct WriteBack<'a> {
+    /// All bodies; those of awake lane blocks are written.
     pub bodies: &'a mut [RigidBody],
 }
 
@@ -100,6 +105,7 @@ impl LaneKernel for WriteBack<'_> {
 
 /// Adds the last change of velocities to blocks and bodies.
 pub(super) struct AddVelocityChange<'a> {
+    /// All bodies; those of awake lane blocks are written.
     pub bodies: &'a mut [RigidBody],
 }
 
@@ -121,9 +127,13 @@ impl LaneKernel for AddVelocityChange<'_> {
 /// From one Runge–Kutta stage to the next: adds the rate of this one with its weight, and advances from the start by it over
 /// `h`.
 pub(super) struct Stage<'a> {
+    /// Start and weighted mean rate of each lane block.
     pub states: &'a mut [SubstepState],
+    /// Is this the first stage, which starts the mean?
     pub first: bool,
+    /// Weight of this stage's rate in the mean.
     pub weight: f64,
+    /// Time from the start to the next stage, s.
     pub h: f64,
 }
 

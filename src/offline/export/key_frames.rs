@@ -38,6 +38,9 @@ impl AnimationBake {
     }
 
     /// Writes the model with its key frames as a `.glb`.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn write(&self, exhibit: &Exhibit, path: &Path) -> io::Result<()> {
         let mut file = AtomicFile::create(path)?;
         file.write_all(&self.bytes(exhibit))?;

@@ -50,6 +50,9 @@ pub(super) enum OperatorKind {
 
 impl OperatorKind {
     /// An operator of a checked node. The error says what the node lacks.
+    ///
+    /// # Errors
+    /// What the node lacks.
     pub fn compile(node: &Node, surface: Option<&SurfaceLine>, shared: &mut Shared) -> Result<Self, String> {
         Ok(match node {
             Node::Modal(_) => Self::Modal,

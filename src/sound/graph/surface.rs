@@ -65,6 +65,9 @@ impl Pyramid {
     }
 
     /// The line of a picture.
+    ///
+    /// # Errors
+    /// The line has fewer than [`FEWEST`] or more than [`MOST`] points, or a number that is not finite.
     pub fn of_picture(line: &SurfaceLine) -> Result<Self, String> {
         let fine = line.spacing.is_finite() && line.spacing > 0.0 && line.values.iter().all(|v| v.is_finite());
         if !(fine && (FEWEST..=MOST).contains(&line.values.len())) {

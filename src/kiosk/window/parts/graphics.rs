@@ -40,6 +40,9 @@ impl Graphics {
     }
 
     /// Opens a device for a window.
+    ///
+    /// # Errors
+    /// There is no adapter that can draw to the window; the reason.
     pub fn open(&self, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Screen, String> {
         Screen::new(self.instance.clone(), window, exhibit)
     }
@@ -50,6 +53,9 @@ impl Graphics {
     }
 
     /// Opens a new device in place of a lost one; the error says why there is none.
+    ///
+    /// # Errors
+    /// There is no adapter that can draw to the window; the reason.
     pub fn replace(&mut self, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Screen, String> {
         self.lost += 1;
         if self.lost > LOST_DEVICES {

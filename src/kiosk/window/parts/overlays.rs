@@ -70,7 +70,7 @@ impl Languages {
         Self { offered: Vec::new(), without_glyphs, shown: String::new() }
     }
 
-    /// Offers the languages of an exhibit. If it lacks the one on show, the first is shown.
+    /// Offers the languages of the exhibit's labels. If the language on show is not among them, the default one is shown.
     pub fn offer(&mut self, context: &egui::Context, exhibit: &Exhibit, config: &Config, translations: &Translations) {
         self.offered = offered(context, &exhibit.labels, config, translations, &self.without_glyphs);
         if !self.offered.contains(&self.shown) {

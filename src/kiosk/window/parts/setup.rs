@@ -44,6 +44,9 @@ impl Setup {
 
     /// Takes over a valid configuration, except the keys that wait for a restart. `safe` says whether the kiosk is in safe
     /// mode. `Err` is returned where nothing has changed, and says whether the file had problems before.
+    ///
+    /// # Errors
+    /// Nothing has changed; the value says whether the file had problems before.
     pub fn take_over(&mut self, loaded: LoadedConfig, safe: bool) -> Result<Change, bool> {
         let was_broken = !self.problems.is_empty();
         self.problems.clear();

@@ -114,13 +114,13 @@ pub(super) struct Contact {
     pub min_velocity: f64,
     /// Coefficient of restitution, of an impact.
     pub restitution: f64,
-    /// Impulse that has already acted, N s.
+    /// Impulse that earlier solutions of this substep have applied, world frame, N s.
     pub applied: DVec3,
-    /// Impulse, N s.
+    /// Impulse of this solution, N s.
     pub impulse: DVec3,
     /// Impulse that the solver starts from, N s.
     pub initial: DVec3,
-    /// Where the force that it continues acted, m.
+    /// World point at which this contact's force acted in the step before, m; `None` for a new contact.
     pub previous_point: Option<DVec3>,
     /// Its rows in the problem.
     pub rows: IndexRange,
