@@ -45,9 +45,9 @@ impl Hint {
 /// A line of sight.
 #[derive(Clone, Copy, Debug)]
 pub struct SightLine {
-    /// World, m.
+    /// Start of the ray, world, m.
     pub origin: DVec3,
-    /// World, unit.
+    /// Direction of the ray, world, unit.
     pub direction: DVec3,
     /// Length, m.
     pub far: f64,

@@ -48,11 +48,11 @@ pub(super) struct Pipelines {
     pub gallery: wgpu::RenderPipeline,
     /// Backdrop of a picture without a gallery.
     pub backdrop: wgpu::RenderPipeline,
-    /// Wires.
+    /// Wires in the picture.
     pub wires: wgpu::RenderPipeline,
     /// Dust particles.
     pub dust: wgpu::RenderPipeline,
-    /// One for the wall and one for the floor.
+    /// Shadows of meshes on wall and floor.
     pub plane_meshes: [wgpu::RenderPipeline; 2],
     /// Shadows of wires on wall and floor.
     pub plane_wires: [wgpu::RenderPipeline; 2],

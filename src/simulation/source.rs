@@ -144,6 +144,7 @@ impl BreathSource {
 #[derive(Clone)]
 pub(crate) struct BreathState {
     source: BreathSource,
+    /// Compensation of the detector's latency.
     pub onset: OnsetCompensation,
     /// Joint speed of all sources, m/s; exactly 0 without a breath.
     pub speed: f64,

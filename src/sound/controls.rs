@@ -32,13 +32,15 @@ pub(super) struct SustainedControls {
 
 /// Control signals of one instrument.
 pub(super) struct ControlValues {
+    /// Smoothed inputs of the voice.
     pub inputs: Inputs,
     /// −1 left … 1 right.
     pub pan: f64,
     /// From the listener, m.
     pub distance: f32,
-    /// Whether nothing moved before this grid point, and at it.
+    /// Did nothing move before this grid point?
     pub still_before: bool,
+    /// Does nothing move at this grid point?
     pub still: bool,
 }
 

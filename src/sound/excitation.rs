@@ -48,7 +48,7 @@ impl Contact {
         Self { radius, modulus: e / (2.0 * (1.0 - material.poisson * material.poisson)) }
     }
 
-    /// Hertz contact time τ, s.
+    /// Hertz contact time τ, s, of an impact with an effective mass, kg, at an approach speed, m/s: τ = 2.87 (m²/(R E*² v))^⅕.
     pub fn time(&self, mass: f64, speed: f64) -> f64 {
         let stiff = self.radius * self.modulus * self.modulus * speed.max(1e-4);
         (2.87 * pow(mass.max(1e-6) * mass.max(1e-6) / stiff, 0.2)).clamp(SHORTEST_CONTACT, LONGEST_CONTACT)
@@ -71,6 +71,7 @@ pub(super) struct Radiator {
 }
 
 impl Radiator {
+    /// The radiator that a body of this material is.
     pub fn new(body: &SoundBody, material: &SoundMaterial) -> Self {
         let h = body.thickness;
         let rigidity = material.youngs_modulus * h * h * h / (12.0 * (1.0 - material.poisson * material.poisson));

@@ -17,10 +17,13 @@ const MIN_MASS: f64 = 1e-6;
 
 /// A compiled instrument.
 pub(super) struct Instrument {
+    /// Its nodes.
     pub graph: Graph,
     /// What plays it.
     pub player: Player,
+    /// Linear gain.
     pub gain: f64,
+    /// Most voices of impacts at once.
     pub max_voices: usize,
     radiator: Radiator,
     modal: Option<Modal>,

@@ -71,6 +71,7 @@ pub(super) struct Limiter {
 }
 
 impl Limiter {
+    /// A limiter at rest for this sample rate, Hz.
     pub fn new(sample_rate: f64) -> Self {
         let frames = ((LOOK_AHEAD * sample_rate) as usize).max(1);
         Self {

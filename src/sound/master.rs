@@ -24,6 +24,7 @@ pub(super) struct Master {
 }
 
 impl Master {
+    /// A master bus at rest for this sample rate, Hz, without reverb and night mode.
     pub fn new(sample_rate: f64) -> Self {
         Self {
             sample_rate,

@@ -56,6 +56,7 @@ pub(super) struct NightMode {
 }
 
 impl NightMode {
+    /// Night mode that is off, for this sample rate, Hz.
     pub fn new(sample_rate: f64) -> Self {
         let rise = db_to_amplitude(SHELF_DB);
         let (s, c) = sincos(PI * SHELF_CORNER / sample_rate);

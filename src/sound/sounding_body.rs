@@ -67,6 +67,7 @@ pub(super) struct SoundingBody {
 }
 
 impl SoundingBody {
+    /// A silent body; `index` is that of its instrument in the synth.
     pub fn new(index: usize, instrument: &Instrument, bank: Bank, sample_rate: f64) -> Self {
         let mut operators = Box::new(std::array::from_fn(|_| OperatorState::new(0)));
         instrument.graph.allocate(&mut operators, sample_rate);

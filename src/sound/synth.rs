@@ -162,7 +162,7 @@ impl Synth {
         }
     }
 
-    /// Hz.
+    /// Sample rate, Hz.
     pub fn sample_rate(&self) -> u32 {
         self.sample_rate as u32
     }

@@ -35,6 +35,7 @@ pub(super) struct TruePeak {
 }
 
 impl TruePeak {
+    /// A meter that has seen silence.
     pub fn new() -> Self {
         let tap = |phase: usize, j: usize| {
             let d = j as f64 - (TAPS / 2 - 1) as f64 - (phase + 1) as f64 / PHASES as f64;

@@ -10,9 +10,13 @@ use super::true_peak::peak;
 const QUIET_GRID_POINTS: u32 = 4;
 
 pub(super) struct Voice {
+    /// Does it sound?
     pub state: VoiceState,
+    /// Index of its instrument in the synth.
     pub instrument: usize,
+    /// Values of the inputs that its numbers are bound to.
     pub inputs: Inputs,
+    /// State of each node of its timbre.
     pub operators: [OperatorState; MAX_NODES],
     /// Left and right, distance included.
     pub gains: [f32; 2],
@@ -34,6 +38,7 @@ pub(super) enum VoiceState {
 }
 
 impl Voice {
+    /// A voice that is free.
     pub fn new() -> Self {
         Self {
             state: VoiceState::Free,

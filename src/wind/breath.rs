@@ -50,7 +50,7 @@ pub struct JetPoint {
 pub struct Breath {
     /// Centre of the lips, world, m.
     pub mouth: DVec3,
-    /// Unit.
+    /// Direction of the breath, unit.
     pub direction: DVec3,
     /// d, m.
     pub lip_diameter: f64,

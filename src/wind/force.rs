@@ -120,11 +120,11 @@ pub struct PatchSample {
     pub surface: usize,
     /// Index of the patch on it.
     pub patch: usize,
-    /// World, m.
+    /// World point, m.
     pub point: DVec3,
     /// Outward normal or direction of the wire, world, unit.
     pub axis: DVec3,
-    /// m².
+    /// Area, m².
     pub area: f64,
     /// Whether it faces the lips and nothing hides it from them.
     pub visible: bool,

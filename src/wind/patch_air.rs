@@ -18,7 +18,7 @@ pub(crate) const STILL_AIR: f64 = 0.01;
 /// The breath's air at one patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BreathAir {
-    /// World, m/s.
+    /// Velocity of the air, world, m/s.
     pub velocity: DVec3,
     /// Speed at which it left the lips, m/s; 0 where no breath arrives.
     pub source_speed: f64,

@@ -223,6 +223,7 @@ pub(super) struct Supervisor {
 }
 
 impl Supervisor {
+    /// A supervisor that has opened no device yet. `inbox` brings requests, `links` takes the ends of opened devices.
     pub fn new(
         (settings, listens): (AudioSettings, bool),
         synth: SynthFactory,

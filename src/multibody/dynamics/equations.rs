@@ -37,6 +37,7 @@ pub(super) enum FactorUse {
 /// How the joints are closed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointClosing {
+    /// Which factor the solutions use.
     pub factor: FactorUse,
     /// Are the joints closed in velocity too?
     pub velocities: bool,
@@ -67,17 +68,21 @@ pub(super) struct Equations {
     pub system: System,
     /// The same joints with gears as single couplings, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
+    /// The springs.
     pub springs: Springs,
+    /// Bodies whose motion is given.
     pub kinematic_bodies: Vec<KinematicBody>,
     /// Each kinematic body and its acceleration at the time last evaluated.
     kinematic_accelerations: Vec<(usize, Vec6)>,
     /// Linear and angular damping rates by lane blocks, 1/s.
     damping: Vec<[Four; 2]>,
+    /// External wrenches of the present step.
     pub wrenches: Wrenches,
     /// World acceleration, m/s².
     gravity: DVec3,
     /// 1/ω₀ of the stabiliser, s.
     stabilization_time: f64,
+    /// At which state the rows were evaluated last.
     pub evaluated: Evaluated,
 }
 

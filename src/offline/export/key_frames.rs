@@ -47,7 +47,7 @@ impl AnimationBake {
         file.finish()
     }
 
-    /// The same as bytes.
+    /// The model with its key frames as the bytes of a `.glb`.
     pub fn bytes(&self, exhibit: &Exhibit) -> Vec<u8> {
         let mut scenery = ExportModel::new(exhibit);
         let reaches = scenery.node_radii(exhibit);

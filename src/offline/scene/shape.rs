@@ -22,7 +22,7 @@ pub enum ShapeAxis {
 }
 
 impl ShapeAxis {
-    /// Unit vector.
+    /// Unit vector of the axis.
     pub fn direction(self) -> DVec3 {
         match self {
             Self::X => DVec3::X,

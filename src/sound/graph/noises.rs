@@ -28,6 +28,7 @@ pub(super) struct Pink {
 }
 
 impl Pink {
+    /// The pink filter's poles and zeros.
     pub fn new() -> Self {
         let mut corner = LOWEST;
         let sections = std::array::from_fn(|_| {
@@ -38,6 +39,7 @@ impl Pink {
         Self { sections }
     }
 
+    /// Renders a block of pink noise.
     pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         for y in out {
             let mut x = MAKE_UP * state.random.signed();
@@ -61,6 +63,7 @@ pub(super) struct Slow {
 }
 
 impl Slow {
+    /// The slow noise of a checked node.
     pub fn new(noise: &Noise) -> Self {
         let &Noise { base, octaves, roughness, .. } = noise;
         Self { fractal: noise.kind == NoiseKind::Multifractal, base, octaves, roughness }
@@ -91,6 +94,7 @@ impl Slow {
         self.octaves_below(0.25 * sample_rate / CONTROL_PERIOD as f64) < self.octaves
     }
 
+    /// Starts the noise of a voice at `time`, s.
     pub fn begin(&self, state: &mut OperatorState, seed: u64, time: f64, sample_rate: f64) {
         if self.is_fast(sample_rate) {
             (state.place, state.step) = (time, 1.0 / sample_rate);
@@ -100,6 +104,7 @@ impl Slow {
         (state.seed, state.octaves) = (seed, self.octaves_below(0.125 * sample_rate));
     }
 
+    /// Sets the change per sample up to the next control point; `time` in s.
     pub fn control(&self, state: &mut OperatorState, seed: u64, time: f64, sample_rate: f64) {
         if self.is_fast(sample_rate) {
             state.place = time;
@@ -109,6 +114,7 @@ impl Slow {
         }
     }
 
+    /// Renders a block of slow noise.
     pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         for y in out {
             if state.step > 0.0 {

@@ -126,6 +126,7 @@ impl Pyramid {
         if self.endless { self.points() as f64 * random.range(PIECE.0, PIECE.1) } else { f64::INFINITY }
     }
 
+    /// Renders a block of the line as it is read at the state's speed.
     pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         let points = self.points() as f64;
         let on = |place: f64, way: f64| if place + way >= points { place + way - points } else { place + way };

@@ -31,7 +31,7 @@ const MIN_CONTACT: f64 = 1e-12;
 /// A partial of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Partial {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// c, 1/s; T60 = 6.908/c.
     pub decay: f64,

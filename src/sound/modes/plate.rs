@@ -31,7 +31,7 @@ pub(super) type Legendre = [f64; DEGREE + 1];
 /// One mode of vibration.
 #[derive(Clone, Debug)]
 pub struct PlateMode {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// Parity of the shape in x and in y: 0 even, 1 odd.
     pub parity: [usize; 2],

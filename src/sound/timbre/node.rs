@@ -187,7 +187,7 @@ pub struct Map {
     pub gain: Number,
 }
 
-/// The same, later.
+/// A delay line with feedback: its input, later.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Delay {

@@ -12,7 +12,7 @@ pub struct Modal {
     /// Where the partials come from.
     #[serde(flatten)]
     pub source: Source,
-    /// What does not depend on that.
+    /// Keys that every source of partials has.
     #[serde(flatten)]
     pub common: Common,
 }
@@ -91,7 +91,7 @@ pub struct MaterialOverride {
     pub shear_modulus: Option<f64>,
     /// ν.
     pub poisson: Option<f64>,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: Option<f64>,
     /// η of the installed body: c = π η f, T60 = 2.2/(η f).
     pub loss_factor: Option<f64>,

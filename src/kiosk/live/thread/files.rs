@@ -7,7 +7,9 @@ use soffio_offline::trace::TraceWriter;
 
 /// Trace and record, where requested.
 pub(super) struct Files {
+    /// Trace of the poses.
     pub trace: Option<TraceWriter>,
+    /// Record of the inputs.
     pub record: Option<Recording>,
 }
 

@@ -12,7 +12,9 @@ use soffio_sound::SoundCommand;
 
 /// Sound output. The devices are opened together, so the microphone is read through it too.
 pub(super) struct Playback {
+    /// Devices of the sound.
     pub audio: AudioIo,
+    /// Loudness control.
     pub loudness: Loudness,
     /// Sounds of the present steps.
     pub sounds: Vec<SoundCommand>,

@@ -13,6 +13,7 @@ use soffio_simulation::{Inspection, STEPS_PER_SECOND};
 
 /// Collects the results of steps for the next [`LiveState`].
 pub(super) struct Publisher {
+    /// Counts and states of devices, for the status page.
     pub load: RunStatus,
     /// Inspection for staff.
     pub inspection: Option<Arc<Inspection>>,

@@ -15,13 +15,15 @@ const LOST_DEVICES: u32 = 3;
 
 /// State of the graphics.
 pub(crate) struct Graphics {
+    /// Instance from which devices and surfaces are made.
     pub instance: wgpu::Instance,
     /// Reloads changed shaders.
     pub shader_watcher: Option<ShaderWatcher>,
+    /// Sway of the camera in attract mode.
     pub camera_sway: CameraSway,
     /// State that the frame shows; reused to avoid allocations.
     pub moment: Snapshot,
-    /// Time at which the device is destroyed once, s.
+    /// Time since the start at which the device is destroyed once, as a test of its replacement, s.
     pub lose_device_at: Option<f64>,
     lost: u32,
 }

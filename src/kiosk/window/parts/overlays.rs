@@ -14,9 +14,13 @@ const INVITES_S: f64 = 6.0;
 
 /// Overlays of the picture.
 pub(crate) struct Overlays {
+    /// Overlay with its animations.
     pub overlay: Overlay,
+    /// The page of visitors.
     pub menu: Menu,
+    /// Reading aloud.
     pub read_aloud: ReadAloud,
+    /// Languages on offer and on show.
     pub languages: Languages,
     /// The kiosk's own texts.
     pub translations: Translations,
@@ -56,6 +60,7 @@ impl Overlays {
 
 /// Languages a visitor can choose from, and the one chosen.
 pub(crate) struct Languages {
+    /// Codes of the languages on offer, in their order.
     pub offered: Vec<String>,
     /// Languages that the fonts of this system cannot write.
     without_glyphs: Vec<String>,

@@ -16,8 +16,11 @@ const COMMON_REFRESH: f64 = 1.0 / 60.0;
 /// State of frame pacing.
 #[derive(Default)]
 pub(crate) struct Pacing {
+    /// Times of frames.
     pub clock: FrameClock,
+    /// Latency from the onset of a breath to the picture.
     pub onset_latency: OnsetLatency,
+    /// Choice of the quality tier.
     pub quality: QualityController,
     idle: IdleRendering,
     /// Number of window events so far, except redraws.
@@ -28,6 +31,7 @@ pub(crate) struct Pacing {
 /// Counts of frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
+    /// Number of frames that were shown.
     pub shown: u64,
     /// Idle ones among them.
     pub at_rest: u64,
@@ -49,6 +53,7 @@ pub(crate) struct FrameMotion {
 pub(crate) struct FrameStart {
     /// Start of this frame, and of the one before.
     pub now: Instant,
+    /// Start of the frame before.
     pub last: Instant,
     /// Did it wait in idle rendering?
     pub rested: bool,

@@ -7,7 +7,9 @@ use soffio_config::{Config, LoadedConfig};
 
 /// Configuration of this run.
 pub(crate) struct Setup {
+    /// The configuration, overrides included.
     pub config: Config,
+    /// Watcher of the configuration file; `None` without a file.
     pub file: Option<ConfigWatcher>,
     /// Problems of the configuration for staff: mistakes, old names, and keys that wait for a restart.
     pub problems: Vec<String>,

@@ -12,12 +12,17 @@ use soffio_config::Config;
 
 /// State of a visit.
 pub(crate) struct VisitState {
+    /// Inputs of the visitor.
     pub visitor: Visitor,
+    /// Modifier keys that are held.
     pub modifiers: ModifiersState,
+    /// Accessibility settings of this visit.
     pub accessibility: AccessibilitySettings,
+    /// Pressing by rest of the pointer.
     pub dwell: Dwell,
     /// Is the microphone on? A visitor can switch it off.
     pub microphone_on: bool,
+    /// Breath time of the visit and of the day.
     pub breath_time: BreathTime,
     /// Is attract mode playing?
     attracts: bool,

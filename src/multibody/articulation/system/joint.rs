@@ -48,10 +48,10 @@ pub struct Joint {
     pub(super) in_train: bool,
 }
 
-/// State of one scalar constraint row, C(x) = f(t), beside its Jacobian blocks.
+/// State of one scalar constraint row, C = q(x) − f(t), beside its Jacobian blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RowState {
-    /// C − f, the error of the row, m or rad.
+    /// C, the error of the row, m or rad.
     pub value: f64,
     /// ḟ, rate of a prescribed motion, m/s or rad/s.
     pub(super) prescribed_rate: f64,
