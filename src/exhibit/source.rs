@@ -30,7 +30,7 @@ pub struct SidecarText {
 }
 
 impl SidecarText {
-    /// Parses TOML.
+    /// Parses the text of a sidecar, TOML. `file` is its name in messages; old names of keys are read as the new ones.
     ///
     /// # Errors
     /// The syntax error, with its position.

@@ -165,7 +165,7 @@ impl PlateShadows {
         }
     }
 
-    /// Are there no plates?
+    /// Has the exhibit no plate that is shadowed analytically?
     pub fn is_empty(&self) -> bool {
         self.plates.is_empty()
     }

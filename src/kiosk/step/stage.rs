@@ -256,7 +256,7 @@ impl Stage {
         self.simulation.exhibit()
     }
 
-    /// Inputs of the last step, for a record; the breath is in the snapshot's speed.
+    /// Inputs of the last step, as a record stores them. Of the breath, a record stores the speed in the snapshot instead.
     pub fn recorded_input(&self) -> StepInput<'_> {
         let RecordedInput { pointer, aspect, turn, mode, ref commands } = self.recorded;
         StepInput {

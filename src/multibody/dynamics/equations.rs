@@ -47,7 +47,7 @@ pub(super) struct JointClosing {
 pub(super) struct EquationSetup<'a> {
     /// The joints, evaluated at the start.
     pub system: System,
-    /// The same joints with gears as single couplings, for position-based motion; `None` where there are no gear trains.
+    /// The same joints with each gear as a row of its own, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
     /// The springs.
     pub springs: Springs,
@@ -66,7 +66,7 @@ pub(super) struct EquationSetup<'a> {
 pub(super) struct Equations {
     /// The joints.
     pub system: System,
-    /// The same joints with gears as single couplings, for position-based motion; `None` where there are no gear trains.
+    /// The same joints with each gear as a row of its own, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
     /// The springs.
     pub springs: Springs,

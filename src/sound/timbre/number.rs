@@ -43,7 +43,7 @@ pub struct Binding {
     /// Exponent; the sign of the input is kept.
     #[serde(default = "unity")]
     pub power: f64,
-    /// Value where the input is 0.
+    /// Value where the input is 0, in the number's own unit.
     #[serde(default)]
     pub offset: f64,
     /// Other inputs that it is multiplied by.

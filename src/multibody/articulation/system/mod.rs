@@ -69,7 +69,7 @@ impl System {
         Self::at_level(Level::new(), bodies, kinematic, constraints, method)
     }
 
-    /// The same without gear trains, for position-based motion, which solves gears row by row.
+    /// As [`Self::new`], with each gear as a row of its own instead of gear trains: position-based motion solves gears row by row.
     pub fn without_trains(
         bodies: &[RigidBody],
         kinematic: &[bool],

@@ -39,7 +39,7 @@ pub(super) struct PointGeometry {
 }
 
 impl Surfaces {
-    /// The surfaces of these colliders, with the pairs that can touch.
+    /// The surfaces of these colliders of `bodies`; `pairs` are the pairs of colliders that can touch.
     pub fn new(colliders: &[Collider], pairs: Vec<SurfacePair>, bodies: &[RigidBody]) -> Self {
         let radius = |c: &Collider| c.body.map_or(0.0, |b| c.shape.bounding_radius(bodies[b].properties.center));
         Self {
