@@ -147,7 +147,7 @@ impl AudioIo {
         let status = Arc::new(Mutex::new(AudioStatus::default()));
         let knobs = Arc::new(Knobs::new(db_to_amplitude(settings.volume_db) as f32));
         let supervisor =
-            Supervisor::new((settings.clone(), listens), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
+            Supervisor::new(settings.clone(), listens, Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
         let supervisor = std::thread::Builder::new().name("soffio-audio".into()).spawn(move || supervisor.run());
         if let Err(error) = &supervisor {
             let missing = DeviceState::Missing(format!("no thread for the devices: {error}"));

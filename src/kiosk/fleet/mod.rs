@@ -17,7 +17,7 @@ use std::time::Instant;
 use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
 use crate::fleet::mqtt::{Mqtt, Order};
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
-use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter};
+use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter, VisitorSigns};
 use crate::live::LiveState;
 use crate::venue::loudness::VolumeRequests;
 use crate::venue::self_test::SelfTestHistory;
@@ -160,9 +160,9 @@ impl Fleet {
         let lived = now.duration_since(self.began);
         let (frame, load) = (seen.frame, &seen.frame.load);
         let blows = frame.current.breath.estimate.speed > 0.0;
-        let input = (seen.activity, blows);
+        let signs = VisitorSigns { inputs: seen.activity, blows };
         let counters = &mut self.persisted.counters;
-        if let Some(visit) = self.visits.record(lived.as_secs_f64(), input, seen.language, seen.site.attract.idle_s) {
+        if let Some(visit) = self.visits.record(lived.as_secs_f64(), signs, seen.language, seen.site.attract.idle_s) {
             counters.visits += 1;
             counters.dwell.record(DWELL_S, visit.seconds);
             *counters.languages.entry(visit.language).or_default() += 1;

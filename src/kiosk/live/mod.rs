@@ -27,7 +27,7 @@ use recording::Recording;
 use shared::{Shared, local_time, lock, trace_error};
 use soffio_offline::trace::{DEFAULT_FPS, TraceWriter};
 use soffio_simulation::Settings;
-use thread::Thread;
+use thread::{Files, Thread};
 
 /// A running simulation.
 pub struct Live {
@@ -62,9 +62,10 @@ impl Live {
             stop: AtomicBool::new(false),
         });
         let theirs = shared.clone();
+        let files = Files { trace, record };
         let thread = std::thread::Builder::new()
             .name("soffio-sim".into())
-            .spawn(move || Thread::new(stage, (trace, record), options, (theirs, Box::new(wake))).run())
+            .spawn(move || Thread::new(stage, files, options, theirs, Box::new(wake)).run())
             .map_err(|error| format!("the simulation thread does not start: {error}"))?;
         Ok(Self { shared, thread: Some(thread) })
     }

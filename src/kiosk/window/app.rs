@@ -31,7 +31,7 @@ use crate::pages::ui_strings::Translations;
 use crate::step::command::KioskCommand;
 use crate::venue::catalog::ExhibitSource;
 use crate::venue::site::ConfigWatcher;
-use crate::venue::state::{OverlayCapture, VenueState};
+use crate::venue::state::{OverlayCapture, SignalContext, VenueState};
 
 /// Size of a window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
@@ -83,7 +83,8 @@ impl<'a> App<'a> {
         ground: Launch,
         places: &ExhibitSource,
         options: Options,
-        (events, interrupted): (&EventLoop<()>, &'a AtomicBool),
+        events: &EventLoop<()>,
+        interrupted: &'a AtomicBool,
     ) -> Self {
         let display = Box::new(events.owned_display_handle());
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -221,7 +222,7 @@ impl ApplicationHandler for App<'_> {
             }
             None => {
                 let keys = self.setup.keys(self.overlays.menu.open);
-                self.venue.signal(time, &mut self.visit.visitor, &signal, (keys, above), desk)
+                self.venue.signal(time, &mut self.visit.visitor, &signal, SignalContext { keys, captured: above }, desk)
             }
         };
         self.stop_reading_on(&signal, request);

@@ -134,7 +134,7 @@ impl App<'_> {
         let drawn = show.screen.draw(&frame.exhibit, &view, moment, |ui| {
             points = ui.ctx().content_rect();
             let pages = Pages { frame, moment, view, time: vitals.time, points_per_mm: points_per_mm(ui.ctx()) };
-            self.overlays.paint(ui, &pages, (&mut self.exhibits, &self.visit), (config, &self.venue));
+            self.overlays.paint(ui, &pages, &mut self.exhibits, &self.visit, config, &self.venue);
             let input = PanelInput {
                 frame,
                 view,
@@ -228,8 +228,10 @@ impl Overlays {
         &mut self,
         ui: &egui::Ui,
         picture: &Pages,
-        (exhibits, visit): (&mut ExhibitSelection, &VisitState),
-        (config, venue): (&Config, &VenueState),
+        exhibits: &mut ExhibitSelection,
+        visit: &VisitState,
+        config: &Config,
+        venue: &VenueState,
     ) {
         let Pages { frame, time, .. } = *picture;
         self.languages.offer(ui.ctx(), &frame.exhibit, config, &self.translations);

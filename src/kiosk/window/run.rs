@@ -21,7 +21,7 @@ pub fn run(
     interrupted: &AtomicBool,
 ) -> Result<Ended, Missing> {
     let events = event_loop().map_err(Missing::Display)?;
-    let mut app = App::new(ground, places, options, (&events, interrupted));
+    let mut app = App::new(ground, places, options, &events, interrupted);
     app.restore_state();
     let looped = events.run_app(&mut app).map_err(|error| error.to_string());
     app.end(looped)

@@ -14,7 +14,6 @@ use cpu_time::ThreadTime;
 
 use super::live_state::LiveState;
 use super::options::{Options, Report};
-use super::recording::Recording;
 use super::shared::{Shared, local_time, lock};
 use super::step_scheduler::StepScheduler;
 use crate::step::command::Batch;
@@ -22,14 +21,13 @@ use crate::step::controls::Controls;
 use crate::step::stage::Stage;
 use crate::venue::loudness::KioskActivity;
 use crate::venue::site::Site;
-use files::Files;
+pub(super) use files::Files;
 use microphone_input::MicrophoneInput;
 use motion::MotionChoice;
 use playback::Playback;
 use publisher::Publisher;
 use soffio_devices::controllers::{Controllers, Reading};
 use soffio_exhibit::Exhibit;
-use soffio_offline::trace::TraceWriter;
 use soffio_simulation::{InspectionScope, Settings};
 
 /// State of the simulation thread.
@@ -51,9 +49,10 @@ pub(super) struct Thread {
 impl Thread {
     pub(super) fn new(
         stage: Stage,
-        (trace, record): (Option<TraceWriter>, Option<Recording>),
+        files: Files,
         options: Options,
-        (shared, wake): (Arc<Shared>, Box<dyn Fn() + Send>),
+        shared: Arc<Shared>,
+        wake: Box<dyn Fn() + Send>,
     ) -> Self {
         let site = options.site;
         Self {
@@ -61,7 +60,7 @@ impl Thread {
             stage,
             limit: options.steps.unwrap_or(u64::MAX),
             recorded: options.recording.is_some(),
-            files: Files { trace, record },
+            files,
             motion: MotionChoice::new(options.mode, options.exhibit.motion),
             playback: Playback::start(&site, &options.exhibit, options.closed),
             microphone: MicrophoneInput::new(options.closed),

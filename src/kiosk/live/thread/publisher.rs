@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::live_state::{LiveState, Onset, RunStatus};
-use crate::step::breaths::{BreathEvent, BreathLog};
+use crate::step::breaths::{BreathDevices, BreathEvent, BreathLog};
 use crate::step::captions::Captions;
 use crate::step::frame_interpolation::SnapshotHistory;
 use crate::step::idle_detection::IdleDetector;
@@ -65,7 +65,8 @@ impl Publisher {
     /// Logs and counts the breaths that began or ended in a step; `strength` is that of a controller, 0 … 1.
     pub(super) fn record_breaths(&mut self, stage: &Stage, strength: f64) {
         let (step, breath) = (stage.steps(), &stage.snapshot().breath);
-        for turn in self.breaths.record(step, breath, (stage.holds(), strength), stage.attracts()) {
+        for turn in self.breaths.record(step, breath, BreathDevices { hold: stage.holds(), strength }, stage.attracts())
+        {
             self.load.blows.record(&turn);
             if matches!(turn, BreathEvent::Begins(..)) {
                 self.onset = Some(Onset { step: stage.snapshot().step, at: Instant::now() });
