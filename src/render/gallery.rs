@@ -26,7 +26,7 @@ pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.60, 0.545, 0.47);
 const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
 /// Radiance of the window, linear RGB, relative to exposure 1: chosen by eye, cooler than the softboxes.
 const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
-/// Radiance of the wall behind the exhibit by the fields and reflections, relative to exposure 1. With [`WALL_LAMPS`]
+/// Radiance of the wall behind the exhibit by the fields and reflections, relative to exposure 1. With the lamps
 /// it makes about three quarters of white.
 pub const WALL_AMBIENT: f32 = 0.30;
 /// Radiance that the lamps add there, relative to exposure 1, the key lamp's first: a ratio of 3 : 1, chosen by eye,
