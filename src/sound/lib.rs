@@ -169,7 +169,7 @@ pub struct Slide {
     pub distance: f32,
 }
 
-/// The wind that sounds.
+/// The wind at the sculpture as a sound command: the instruments that sound in wind follow it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WindSound {
     /// When.

@@ -226,7 +226,7 @@ impl Stage {
         }
     }
 
-    /// Inspects the present state.
+    /// Present values of the simulation for the staff panel, as far as `look` asks for them.
     pub fn inspect(&mut self, look: InspectionScope) -> Inspection {
         self.simulation.inspect(look)
     }
