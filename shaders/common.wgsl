@@ -163,7 +163,7 @@ fn pixel_noise(pixel: vec2f) -> f32 {
 }
 
 // Tone curve: linear radiance to a linear display value, which the target encodes as sRGB.
-fn display(radiance: vec3f, pixel: vec2f) -> vec3f {
+fn tone_mapped(radiance: vec3f, pixel: vec2f) -> vec3f {
     let c = max(radiance * globals.exposure, vec3f(0.0));
     var out: vec3f;
     switch TONEMAP {

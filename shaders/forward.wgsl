@@ -275,10 +275,10 @@ fn fragment(v: Varying) -> @location(0) vec4f {
         discard;
     }
     if material.unlit > 0.5 {
-        return vec4f(display(it.base.rgb, v.clip.xy), it.base.a);
+        return vec4f(tone_mapped(it.base.rgb, v.clip.xy), it.base.a);
     }
     let radiance = shade(it.surface, key_light_at(it.surface)) + it.glow;
-    return vec4f(display(radiance, v.clip.xy), it.base.a);
+    return vec4f(tone_mapped(radiance, v.clip.xy), it.base.a);
 }
 
 // A pixel that the plate covers partly.
@@ -290,10 +290,10 @@ fn ribbon_fragment(v: Varying) -> @location(0) vec4f {
         discard;
     }
     if material.unlit > 0.5 {
-        return vec4f(display(it.base.rgb, v.clip.xy), part.part);
+        return vec4f(tone_mapped(it.base.rgb, v.clip.xy), part.part);
     }
     let radiance = shade(it.surface, key_light_at(it.surface)) + it.glow;
-    return vec4f(display(radiance, v.clip.xy), part.part);
+    return vec4f(tone_mapped(radiance, v.clip.xy), part.part);
 }
 
 // Transmitted fraction of the background in one crossing of the surface, per channel.

@@ -172,7 +172,7 @@ fn fragment(v: Varying) -> @location(0) vec4f {
         let above = select(v.local.y + 1.0, 1.0, v.face == 2u);
         radiance *= 1.0 - 0.72 * clamp((GAP - above) / pixel + 0.5, 0.0, 1.0) * min(GAP / pixel, 1.0);
     }
-    return vec4f(display(radiance, v.clip.xy), 1.0);
+    return vec4f(tone_mapped(radiance, v.clip.xy), 1.0);
 }
 
 // Scenarios without a gallery: one colour as background, at the far end of the depth range.
@@ -183,5 +183,5 @@ fn backdrop_vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4
 
 @fragment
 fn backdrop_fragment(@builtin(position) position: vec4f) -> @location(0) vec4f {
-    return vec4f(display(globals.background, position.xy), 1.0);
+    return vec4f(tone_mapped(globals.background, position.xy), 1.0);
 }

@@ -103,5 +103,5 @@ fn fragment(v: Varying) -> @location(0) vec4f {
         s.normal = side * m + front * sqrt(1.0 - m * m);
         radiance += shade(s, lit) / normals;
     }
-    return vec4f(display(radiance, v.clip.xy), alpha);
+    return vec4f(tone_mapped(radiance, v.clip.xy), alpha);
 }

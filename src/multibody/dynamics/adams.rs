@@ -283,7 +283,7 @@ mod tests {
         let mut own = 0;
         for _ in 0..steps {
             dynamics.step(dt, &[[0.0; 6]], &mut Vec::new());
-            own += usize::from(dynamics.integration.fourth_step.is_none());
+            own += usize::from(dynamics.integration.last_runge_kutta_substep.is_none());
         }
         own
     }
@@ -348,7 +348,7 @@ mod tests {
         for _ in 0..100 {
             let push = random.signed();
             dynamics.step(DT, &[[push, 0.0, 0.0, 0.0, 0.0, 0.0]], &mut Vec::new());
-            own += usize::from(dynamics.integration.fourth_step.is_none());
+            own += usize::from(dynamics.integration.last_runge_kutta_substep.is_none());
             place += DT * speed + 0.5 * DT * DT * push / 0.1;
             speed += DT * push / 0.1;
         }

@@ -118,7 +118,7 @@ pub(super) struct Integration {
     norms: Vec<[f64; 2]>,
     history: MultistepHistory,
     /// Length of the last substep, s; `None` where its error says nothing about the next.
-    pub fourth_step: Option<f64>,
+    pub last_runge_kutta_substep: Option<f64>,
     /// Length of the present step, s.
     dt: f64,
     /// Substep that the error allows, s.
@@ -136,7 +136,7 @@ impl Integration {
             stages: [stages(), stages(), stages()],
             norms: vec![[0.0; 2]; bodies],
             history: MultistepHistory::default(),
-            fourth_step: None,
+            last_runge_kutta_substep: None,
             dt: 0.0,
             suggested_step: f64::INFINITY,
         }
@@ -167,7 +167,7 @@ impl Integration {
     /// Forgets all past substeps, for bodies that were moved.
     pub fn reset(&mut self) {
         self.history.end();
-        (self.fourth_step, self.suggested_step) = (None, f64::INFINITY);
+        (self.last_runge_kutta_substep, self.suggested_step) = (None, f64::INFINITY);
     }
 
     /// Sets the error of a body of this mass (kg) to zero, because it falls asleep.
@@ -205,7 +205,7 @@ impl Integration {
                 return h;
             }
             self.back_to_start(moving);
-            self.fourth_step = None;
+            self.last_runge_kutta_substep = None;
             h = suggested_step.min(0.5 * h).max(shortest);
         }
     }
@@ -228,11 +228,12 @@ impl Integration {
     fn estimate(&mut self, moving: &mut Moving, h: f64) -> f64 {
         let cube = h * h * h;
         // h⁵/(6 h'), or a fraction of the estimate itself where there is no substep before.
-        let scale = cube * self.fourth_step.map_or(h * UNKNOWN_CHANGE, |before| h * h / before) / 6.0;
-        let (per_cube, has_previous, index) = (1.0 / cube, self.fourth_step.is_some(), self.history.record_step(h));
+        let scale = cube * self.last_runge_kutta_substep.map_or(h * UNKNOWN_CHANGE, |before| h * h / before) / 6.0;
+        let (per_cube, has_previous, index) =
+            (1.0 / cube, self.last_runge_kutta_substep.is_some(), self.history.record_step(h));
         let (states, norms) = (&mut self.states, &mut self.norms);
         run_kernel(&mut moving.equations.system, Estimate { states, norms, per_cube, scale, has_previous, index });
-        self.fourth_step = Some(h);
+        self.last_runge_kutta_substep = Some(h);
         let [error, scale] = self.norms.iter().fold([0.0, 0.0], |sum, norm| [sum[0] + norm[0], sum[1] + norm[1]]);
         (error / scale).sqrt()
     }
@@ -260,7 +261,7 @@ impl Integration {
                 moving.close_joints(t + h, FactorUse::Reuse);
                 self.history.extend();
                 // The estimate was another method's.
-                self.fourth_step = None;
+                self.last_runge_kutta_substep = None;
             }
             Smoothness::NotSmooth => {
                 self.history.end();

@@ -19,7 +19,7 @@ mod contacts;
 mod effective_inverse_mass;
 mod equations;
 pub mod forces;
-pub mod impulse;
+pub mod impact_law;
 mod integrate;
 mod joint_loads;
 mod kinematic;

@@ -24,7 +24,7 @@
 use super::relaxation::Relaxation;
 use super::resting_friction::{ContactImpulse, ContactMobility, ContactVelocity, resting_impulse};
 use crate::articulation::System;
-use crate::dynamics::impulse::impulse;
+use crate::dynamics::impact_law::impulse;
 use crate::dynamics::{Contacts, Dynamics, Impact, ImpactKind, MAX_ROW_BODIES, SweptContact, rolling_rows};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::spatial::{Vec6, add_scaled, angular, dot, linear, vec6};

@@ -10,8 +10,8 @@
 //! Each kind has its derivation at the head of its file.
 
 pub mod coupling;
-pub mod friction;
 pub mod orientation;
+pub mod pivot_friction;
 pub mod plane;
 pub mod point;
 
@@ -140,7 +140,9 @@ impl Constraint {
     pub fn row_count(&self) -> usize {
         match self.kind {
             ConstraintKind::PointToPoint { .. } => 3,
-            _ => 1,
+            ConstraintKind::Orientation { .. }
+            | ConstraintKind::PointOnPlane { .. }
+            | ConstraintKind::Coupling { .. } => 1,
         }
     }
 }

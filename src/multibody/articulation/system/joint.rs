@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::articulation::activity::Activity;
 use crate::articulation::loops::LoopRow;
-use crate::articulation::rows::{BodyStates, JacobianRow, friction, orientation, plane, point};
+use crate::articulation::rows::{BodyStates, JacobianRow, orientation, pivot_friction, plane, point};
 use crate::articulation::topology::Link;
 use crate::articulation::tree::JointRows;
 use crate::articulation::{Anchor, Constraint, ConstraintKind};
@@ -178,7 +178,7 @@ impl Joint {
         let rate = (spin(Some(self.link.a)) - spin(self.link.b)).length();
         for &index in &self.constraints {
             let Some(pivot) = constraints[index].friction else { continue };
-            for row in friction::rows() {
+            for row in pivot_friction::rows() {
                 let k = rows.rows;
                 if k == self.capacity {
                     break;
@@ -186,7 +186,7 @@ impl Joint {
                 (rows.a[k], rows.b[k]) = (row.a, row.b);
                 rows.soft = true;
                 rows.compliance[k] = [0.0; MAX_ROWS];
-                rows.compliance[k][k] = friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
+                rows.compliance[k][k] = pivot_friction::compliance(pivot.coefficient * load * pivot.radius, rate, h);
                 // It has no position error; another row may have been at this index before.
                 states[self.at + k] = RowState { constraint: index, activation: 1.0, ..RowState::default() };
                 rows.rows = k + 1;

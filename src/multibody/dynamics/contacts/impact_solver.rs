@@ -1,6 +1,6 @@
 //! Impact resolution: simultaneous impacts of two bodies through the joints, with restitution and friction.
 //!
-//! An impact at one point follows its path of stick and slip (`dynamics/impulse.rs`). An impact at several points of the same two
+//! An impact at one point follows its path of stick and slip (`dynamics/impact_law.rs`). An impact at several points of the same two
 //! bodies, such as a box that lands flat, is one event: the contact problem gives the impulses P_c of compression, which end all
 //! approach. Restitution then scales each normal impulse to (1 + e) P_c (Poisson), and friction follows it. With friction,
 //! Poisson's law may return more than e² of the energy that compression took. The whole impulse is then (1 + s) P_c with s ≤ e,
@@ -23,7 +23,7 @@ use super::state::Contacts;
 use super::surfaces::PointGeometry;
 use crate::articulation::System;
 use crate::collision::{CONTACT_MARGIN, ManifoldPoint};
-use crate::dynamics::impulse::impulse;
+use crate::dynamics::impact_law::impulse;
 use crate::dynamics::limits::BoundRow;
 use crate::dynamics::step::SubstepSpan;
 use soffio_geometry::bodies::RigidBody;

@@ -4,7 +4,7 @@ use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, rotation};
 use soffio_multibody::articulation::{Anchor, Axis, Constraint, ConstraintKind, System};
-use soffio_multibody::dynamics::impulse::from_rest;
+use soffio_multibody::dynamics::impact_law::from_rest;
 use soffio_multibody::dynamics::{PointImpact, Solver, resolve_point_impact};
 
 fn body(mass: f64, inertia: DVec3, position: DVec3) -> RigidBody {
