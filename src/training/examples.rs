@@ -1,0 +1,61 @@
+//! Training examples: scenes of the generator as the detector's front end measures them, with their targets.
+//!
+//! A frame is a breath where its air is fast enough at the capsule and its sound stands out from everything else, and no breath where there
+//! is no air. Between the two nobody can tell, and the frame does not count.
+
+use super::generator::{self, Scene};
+use super::gradient::Example;
+use soffio_detector::frontend::Frontend;
+use soffio_detector::spectrum::FRAME_S;
+use soffio_math::ln;
+
+/// Slowest air at the capsule that the detector is asked to hear, m/s.
+const SLOWEST_AIR_M_S: f32 = 0.35;
+/// Least level of a breath over all other sound in its best octave, dB.
+const LEAST_OVER_DB: f32 = 3.0;
+/// Time after a breath that does not count, s: the analysis window and the room still hold it.
+const AFTER_S: f64 = 0.1;
+/// Time after which a detector notices a breath and freezes its floors, s.
+const NOTICED_S: f64 = 0.12;
+/// Longest breath during which the floors are frozen, s: as in the detector.
+const FROZEN_S: f64 = 8.0;
+
+/// Examples of a scene through one capsule or through two.
+pub fn of_scene(scene: &Scene, stereo: bool) -> Vec<Example> {
+    let mut frontend = Frontend::new(scene.rate);
+    let mut examples = Vec::with_capacity((scene.air.len() as f64 * 0.001 / FRAME_S) as usize);
+    let (mut breathing_s, mut since_s) = (0.0, f64::INFINITY);
+    let per_ms = scene.rate as usize / 1000;
+    for (i, left) in scene.capsules[0].iter().enumerate() {
+        let right = stereo.then(|| scene.capsules[1][i]);
+        let played = scene.played.get(i).copied().unwrap_or(0.0);
+        let learn = !(NOTICED_S..FROZEN_S).contains(&breathing_s);
+        let Some(frame) = frontend.push(*left, right, played, learn) else { continue };
+        let ms = (i / per_ms).min(scene.air.len() - 1);
+        let (air, over_db) = (scene.air[ms], scene.over_db[ms]);
+        let breath = air >= SLOWEST_AIR_M_S && over_db >= LEAST_OVER_DB;
+        breathing_s = if breath { breathing_s + FRAME_S } else { 0.0 };
+        since_s = if air > 0.0 { 0.0 } else { since_s + FRAME_S };
+        let Some(measured) = frame.measured else { continue };
+        let counts = breath || since_s > AFTER_S;
+        examples.push(Example {
+            inputs: measured.inputs,
+            levels: measured.levels.map(|level| level as f32),
+            target: f32::from(u8::from(breath)),
+            weight: if counts && !frontend.features.floor.is_settling() { 1.0 } else { 0.0 },
+            log_air: ln(f64::from(air.max(0.1))) as f32,
+            first: examples.is_empty(),
+        });
+    }
+    examples
+}
+
+/// Examples of a range of scenes, each through one capsule and through two.
+pub fn of_seed(seed: u64, scenes: std::ops::Range<u64>) -> Vec<Vec<Example>> {
+    let count = (scenes.end - scenes.start) as usize;
+    let both = super::parallel::parallel(count, |i| {
+        let scene = generator::scene(seed, scenes.start + i as u64);
+        [false, true].map(|stereo| of_scene(&scene, stereo))
+    });
+    both.into_iter().flatten().collect()
+}
