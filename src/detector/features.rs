@@ -7,23 +7,27 @@
 //!
 //! | inputs | meaning |
 //! |---|---|
-//! | rise | level over the noise floor, without the loudspeaker's echo, 10 dB |
+//! | rise | level over the noise floor, without the loudspeaker's echo |
+//! | shape | level relative to the loudest band: the same at any distance from the floor |
 //! | strangeness | the rise relative to the usual spread of this room |
 //! | periodicity | largest autocorrelation at 80–400 Hz: voices and music |
 //! | echo | share of the loudspeaker's echo in the rumble |
 //! | two capsules | 1, or 0 with one: then all inputs after it are 0 |
-//! | incoherent rise | the same rise of the incoherent power of wide bands, 10 dB |
+//! | incoherent rise | the same rise of the incoherent power of wide bands |
 //! | incoherent strangeness | the same, relative to its spread |
 //! | decorrelation | 1 − γ² of wide bands |
+//!
+//! Decibels are compressed, c(r) = R tanh(r/R): 40 dB over the floor say no more than 60, which only a microphone that is silent in
+//! between has.
 
 use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, power_to_db, powers};
 use super::floor::Floor;
 use super::incoherence::Incoherence;
 use super::spectrum::{Framer, Power, TRANSFORM};
-use soffio_math::{PI, cos};
+use soffio_math::{PI, cos, tanh};
 
 /// Number of inputs.
-pub const COUNT: usize = 2 * BANDS + 3 + 3 * WIDE;
+pub const COUNT: usize = 3 * BANDS + 3 + 3 * WIDE;
 /// Inputs of the network for one frame.
 pub type Inputs = [f32; COUNT];
 
@@ -36,8 +40,10 @@ const HARMONICS: std::ops::Range<usize> = 6..64;
 /// Lags of 400 Hz and 80 Hz, internal samples.
 const PITCH_LAGS: std::ops::Range<usize> = 20..100;
 const LAGS: usize = PITCH_LAGS.end - PITCH_LAGS.start;
-/// Range of a rise, dB.
-const RISE_DB: (f64, f64) = (-10.0, 60.0);
+/// R of the compression of rises and of the shape, dB.
+const RANGE_DB: f64 = 30.0;
+/// R of the compression of strangeness.
+const STRANGE: f64 = 4.0;
 /// Smallest spread, dB: the scatter of noise in a wide band.
 const MIN_SPREAD_DB: f64 = 1.5;
 
@@ -96,19 +102,21 @@ impl Features {
         }
         let mut inputs = [0.0; COUNT];
         let mut rise_db = 0.0_f64;
+        let loudest = levels.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         for (b, level) in levels.iter().enumerate() {
-            let rise = self.floor.rise(b, *level).clamp(RISE_DB.0, RISE_DB.1);
+            let rise = self.floor.rise(b, *level);
             rise_db = rise_db.max(rise);
-            inputs[b] = (0.1 * rise) as f32;
-            inputs[BANDS + b] = (rise / self.floor.spread(b).max(MIN_SPREAD_DB)) as f32;
+            inputs[b] = compressed(rise, RANGE_DB);
+            inputs[BANDS + b] = compressed(level - loudest, RANGE_DB);
+            inputs[2 * BANDS + b] = compressed(rise / self.floor.spread(b).max(MIN_SPREAD_DB), STRANGE);
         }
         let sum = |of: &[f64; BANDS]| of[RUMBLE].iter().sum::<f64>();
         let share = (sum(&echo_power) / (sum(&power) + MIN_POWER)).min(1.0);
         let periodicity = self.periodicity(&framer.microphone);
-        inputs[2 * BANDS..2 * BANDS + 2].copy_from_slice(&[periodicity, share as f32]);
+        inputs[3 * BANDS..3 * BANDS + 2].copy_from_slice(&[periodicity, share as f32]);
         if stereo {
-            inputs[2 * BANDS + 2] = 1.0;
-            self.compare(framer, &powers(echo, &WIDE_EDGES), learn, &mut inputs[2 * BANDS + 3..]);
+            inputs[3 * BANDS + 2] = 1.0;
+            self.compare(framer, &powers(echo, &WIDE_EDGES), learn, &mut inputs[3 * BANDS + 3..]);
         }
         Frame { inputs, levels, rise_db, echo: share, periodicity }
     }
@@ -122,9 +130,9 @@ impl Features {
             self.incoherent_floor.learn(&levels);
         }
         for b in 0..WIDE {
-            let rise = self.incoherent_floor.rise(b, levels[b]).clamp(RISE_DB.0, RISE_DB.1);
-            inputs[b] = (0.1 * rise) as f32;
-            inputs[WIDE + b] = (rise / self.incoherent_floor.spread(b).max(MIN_SPREAD_DB)) as f32;
+            let rise = self.incoherent_floor.rise(b, levels[b]);
+            inputs[b] = compressed(rise, RANGE_DB);
+            inputs[WIDE + b] = compressed(rise / self.incoherent_floor.spread(b).max(MIN_SPREAD_DB), STRANGE);
             inputs[2 * WIDE + b] = parts[b].1 as f32;
         }
     }
@@ -143,4 +151,9 @@ impl Features {
         let peak = correlation.into_iter().fold(0.0, f32::max);
         (peak / total).clamp(0.0, 1.0)
     }
+}
+
+/// R tanh(x/R), over R: −1 … 1.
+fn compressed(x: f64, range: f64) -> f32 {
+    tanh(x / range) as f32
 }

@@ -218,15 +218,15 @@ impl BlowDetector {
         let Some(measured) = &frame.measured else {
             return self.stop(Reason::Fault);
         };
-        if frame.zero {
-            // An unplugged microphone sends exact zeros; a working one never does for 8 ms.
-            return self.stop(Reason::NoSignal);
-        }
         let floor = &self.frontend.features.floor;
         let rumble = floor.level[RUMBLE].iter().map(|db| db_to_amplitude(2.0 * db)).sum();
         self.estimate.floor_dbfs = power_to_db(rumble);
         let levels = measured.levels.map(|level| level + self.settings.sensitivity_db);
         self.output = self.settings.network.push(&mut self.state, &measured.inputs, &levels);
+        if frame.zero {
+            // An unplugged microphone sends exact zeros, and so does one with a noise gate.
+            return self.stop(Reason::NoSignal);
+        }
         // The first floor and the echo of the first sound are unknown, so no breath begins then; one that has begun may continue.
         let settling = floor.is_settling();
         let unknown_echo = !self.decision.blowing && self.frontend.echo.is_learning();

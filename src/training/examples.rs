@@ -8,6 +8,7 @@ use super::gradient::Example;
 use soffio_detector::frontend::Frontend;
 use soffio_detector::spectrum::FRAME_S;
 use soffio_math::ln;
+use soffio_math::noise::hash_words;
 
 /// Slowest air at the capsule that the detector is asked to hear, m/s.
 const SLOWEST_AIR_M_S: f32 = 0.35;
@@ -20,14 +21,31 @@ const NOTICED_S: f64 = 0.12;
 /// Longest breath during which the floors are frozen, s: as in the detector.
 const FROZEN_S: f64 = 8.0;
 
-/// Examples of a scene through one capsule or through two.
-pub fn of_scene(scene: &Scene, stereo: bool) -> Vec<Example> {
+/// Capsules that a scene is measured with. The first one is nearer to the jet's axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Capsules {
+    /// The first alone.
+    One,
+    /// Both; `swapped`: the second one comes first.
+    Two {
+        /// The second one comes first.
+        swapped: bool,
+    },
+}
+
+/// Examples of a scene.
+pub fn of_scene(scene: &Scene, capsules: Capsules) -> Vec<Example> {
     let mut frontend = Frontend::new(scene.rate);
     let mut examples = Vec::with_capacity((scene.air.len() as f64 * 0.001 / FRAME_S) as usize);
     let (mut breathing_s, mut since_s) = (0.0, f64::INFINITY);
     let per_ms = scene.rate as usize / 1000;
-    for (i, left) in scene.capsules[0].iter().enumerate() {
-        let right = stereo.then(|| scene.capsules[1][i]);
+    let (first, second) = match capsules {
+        Capsules::One => (&scene.capsules[0], None),
+        Capsules::Two { swapped: false } => (&scene.capsules[0], Some(&scene.capsules[1])),
+        Capsules::Two { swapped: true } => (&scene.capsules[1], Some(&scene.capsules[0])),
+    };
+    for (i, left) in first.iter().enumerate() {
+        let right = second.map(|samples| samples[i]);
         let played = scene.played.get(i).copied().unwrap_or(0.0);
         let learn = !(NOTICED_S..FROZEN_S).contains(&breathing_s);
         let Some(frame) = frontend.push(*left, right, played, learn) else { continue };
@@ -55,7 +73,8 @@ pub fn of_seed(seed: u64, scenes: std::ops::Range<u64>) -> Vec<Vec<Example>> {
     let count = (scenes.end - scenes.start) as usize;
     let both = super::parallel::parallel(count, |i| {
         let scene = generator::scene(seed, scenes.start + i as u64);
-        [false, true].map(|stereo| of_scene(&scene, stereo))
+        let swapped = hash_words(&[seed, scenes.start + i as u64]).is_multiple_of(2);
+        [Capsules::One, Capsules::Two { swapped }].map(|capsules| of_scene(&scene, capsules))
     });
     both.into_iter().flatten().collect()
 }
