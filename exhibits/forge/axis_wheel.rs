@@ -11,6 +11,7 @@ use soffio_authoring::stock_parts::{
 
 /// Height of the wheel's centre above the floor, m.
 const MIDDLE: f64 = 300.0 * MM;
+/// Names of the vanes, as in the sidecar.
 const VANES: [&str; 6] = ["Vane1", "Vane2", "Vane3", "Vane4", "Vane5", "Vane6"];
 
 /// The model: the wheel's axle is the z axis of its node.

@@ -8,14 +8,15 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{Solid, extrude, revolve, revolve_ring};
 use soffio_authoring::stock_parts::{MM, WOOD, finishes, part, rod};
 
-/// Radius of a ball, m, as in the sidecar, and mass of a celluloid shell of that size, kg.
+/// Radius of a ball, m, as in the sidecar: that of table tennis, whose celluloid shell it has.
 const RADIUS: f64 = 20.0 * MM;
-/// Segments of a ball's outline.
+/// Segments of a ball's outline: edges of 3.5 mm, chosen by eye.
 const AROUND: usize = 36;
 /// Half lengths of the field between the cushions along x and z, m.
 const FIELD: DVec2 = DVec2::new(240.0 * MM, 150.0 * MM);
-/// Height of the bed's centre above the floor, and of its edge above the centre, m.
+/// Height of the bed's centre above the floor, m.
 const BED: f64 = 64.0 * MM;
+/// Height of the bed's edge above its centre, m: enough that balls roll back.
 const RISE: f64 = 3.0 * MM;
 /// Balls, their stripes, and their start positions (x and z).
 const BALLS: [([&str; 2], [f64; 2]); 7] = [
@@ -151,6 +152,7 @@ fn on_circle(radius: f64, angle: f64) -> DVec2 {
 }
 
 fn sphere() -> Solid {
+    /// Segments from pole to pole.
     const ARCS: usize = 20;
     let arc = |k: usize| on_circle(RADIUS, PI * (k as f64 / ARCS as f64 - 0.5));
     let profile: Vec<DVec2> = (0..=ARCS)
@@ -161,6 +163,7 @@ fn sphere() -> Solid {
 
 /// A band about the equator, which makes the rolling visible.
 fn stripe() -> Solid {
+    /// Half the angle that the stripe takes from pole to pole, rad.
     const HALF: f64 = 0.22;
     let outer = (0..=6).map(|k| on_circle(RADIUS + 0.08 * MM, HALF * (k as f64 / 3.0 - 1.0)));
     let inner = [HALF, -HALF].map(|angle| on_circle(RADIUS - 0.6 * MM, angle));

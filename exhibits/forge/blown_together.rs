@@ -7,15 +7,18 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{revolve, revolve_ring};
 use soffio_authoring::stock_parts::{MM, ROUND, STEEL, WOOD, bent_rod_stand, finishes, part, rod, write};
 
-/// Height of the hook, and of the tray's floor.
+/// Height of the hook above the ground, m.
 const HOOK: f64 = 400.0 * MM;
+/// Height of the tray's floor above the ground, m.
 const FLOOR: f64 = 10.0 * MM;
-/// Radius of a bead, and how far its eyes protrude, m.
+/// Radius of a bead, m.
 const RADIUS: f64 = 19.0 * MM;
+/// How far a bead's eyes protrude, m.
 const EYE: f64 = 3.0 * MM;
 /// Start positions of the beads, mm, and their rotations, rad.
 const PLACES: [(f64, f64, f64); 5] =
     [(-72.0, 22.0, 0.4), (64.0, -38.0, 1.9), (4.0, 62.0, -0.8), (-18.0, -64.0, 2.6), (82.0, 34.0, -2.1)];
+/// Names of each bead and of its parts: bead, ball, eyes, upper and lower eye.
 const NAMES: [[&str; 5]; 5] = [
     ["Bead1", "Bead1Ball", "Bead1Eyes", "Bead1Top", "Bead1End"],
     ["Bead2", "Bead2Ball", "Bead2Eyes", "Bead2Top", "Bead2End"],

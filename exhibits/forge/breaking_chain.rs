@@ -11,10 +11,13 @@ use soffio_authoring::stock_parts::{ALUMINIUM, MM, STEEL, bent_rod_stand, finish
 
 /// Length of a link from eye to eye, m.
 const PITCH: f64 = 44.0 * MM;
-/// Position of the chain's hook.
+/// Height of the chain's hook above the floor, m.
 const HOOK: f64 = 470.0 * MM;
+/// Names of the links, the uppermost first.
 const LINKS: [&str; 6] = ["Link1", "Link2", "Link3", "Link4", "Link5", "Link6"];
+/// Names of the points at the links' upper ends.
 const EYES: [&str; 6] = ["Eye1", "Eye2", "Eye3", "Eye4", "Eye5", "Eye6"];
+/// Names of the points at the links' lower ends.
 const ENDS: [&str; 6] = ["End1", "End2", "End3", "End4", "End5", "End6"];
 
 /// The wire of a link: an eye around its hook, one around its end, perpendicular to each other, and the core between.

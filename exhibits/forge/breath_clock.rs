@@ -37,15 +37,18 @@ pub const WINDING: [ToothCounts; 4] = [
     ToothCounts { wheel: 60, pinion: 6 },
     ToothCounts { wheel: 64, pinion: 16 },
 ];
-/// Direction of each arbor from the previous one, in the plane of the plates.
+/// Direction of each arbor from the previous one, unit, in the plane of the plates: laid out so that no wheel meets
+/// another arbor.
 const STEPS: [(f64, f64); 4] = [(-0.995, 0.0998), (-0.6, 0.8), (-0.8, 0.6), (-0.94, 0.341_174_442)];
-/// Layers of the winding wheel and of the wheels that drive it.
+/// Layer of the winding wheel: its centre along z, m.
 const WIND: f64 = -6.0 * MM;
+/// Layer of the wheels that drive the winding wheel, m.
 const BEHIND: f64 = -14.0 * MM;
-/// Layer of the rotor, in front of the pendulum.
+/// Layer of the rotor, m: in front of the pendulum.
 const SAILS: f64 = 60.0 * MM;
+/// Names of the rotor's vanes.
 const SAIL_NAMES: [&str; 6] = ["Sail1", "Sail2", "Sail3", "Sail4", "Sail5", "Sail6"];
-/// Height of the weight's centre at the start: it can descend by 30 mm.
+/// Height of the weight's centre at the start, m: it can descend by 30 mm.
 const WEIGHT: f64 = 104.0 * MM;
 /// Length of the simple pendulum that makes 6720 beats an hour at this clock's amplitude, m; without a leaf it swings
 /// wider than Terry's.

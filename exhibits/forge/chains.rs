@@ -14,23 +14,27 @@ use soffio_authoring::stock_parts::{Finishes, MM, STEEL, WOOD, finishes, part, r
 
 /// Length of a link from eye to eye, m.
 const PITCH: f64 = 44.0 * MM;
-/// Height of the hooks, and their distance from the carriage's centre, m.
+/// Height of the hooks above the floor, m.
 const HOOK: f64 = 500.0 * MM;
+/// Distance of the hooks from the carriage's centre, m.
 const ASIDE: f64 = 110.0 * MM;
-/// Start position of the carriage.
+/// Start position of the carriage along x, m.
 const START: f64 = -130.0 * MM;
-/// Width and thickness of a heavy link.
+/// Width of a heavy link, m.
 const BROAD: f64 = 46.0 * MM;
+/// Thickness of a heavy link, m.
 const THICK: f64 = 4.0 * MM;
 
 /// Names of a chain: links, their eyes, their ends.
 struct Names([[&'static str; 8]; 3]);
 
+/// Names of the light chain's links and points.
 const LIGHT: Names = Names([
     ["Light1", "Light2", "Light3", "Light4", "Light5", "Light6", "Light7", "Light8"],
     ["LightEye1", "LightEye2", "LightEye3", "LightEye4", "LightEye5", "LightEye6", "LightEye7", "LightEye8"],
     ["LightEnd1", "LightEnd2", "LightEnd3", "LightEnd4", "LightEnd5", "LightEnd6", "LightEnd7", "LightEnd8"],
 ]);
+/// Names of the heavy chain's links and points.
 const HEAVY: Names = Names([
     ["Heavy1", "Heavy2", "Heavy3", "Heavy4", "Heavy5", "Heavy6", "Heavy7", "Heavy8"],
     ["HeavyEye1", "HeavyEye2", "HeavyEye3", "HeavyEye4", "HeavyEye5", "HeavyEye6", "HeavyEye7", "HeavyEye8"],

@@ -15,10 +15,11 @@ pub const MODULE: f64 = 2.0 * MM;
 /// Name and teeth of each wheel, and the direction of the next one, rad.
 pub const WHEELS: [(&str, usize, f64); 4] =
     [("Wheel1", 60, 0.35), ("Wheel2", 20, -0.6), ("Wheel3", 36, 0.75), ("Wheel4", 12, 0.0)];
-/// Position of the first wheel's axle.
+/// Position of the first wheel's axle, m.
 const FIRST: DVec3 = DVec3::new(-0.085, 0.25, 0.0);
 /// Radius of the drum to the middle of the cord, m.
 pub const DRUM: f64 = 6.0 * MM;
+/// Thickness of a wheel, m.
 const THICKNESS: f64 = 5.0 * MM;
 
 /// The wheels at their positions, and the pins on which they rotate.

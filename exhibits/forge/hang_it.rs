@@ -18,20 +18,25 @@ use soffio_authoring::piece::{BentWire, Piece, load, yaw};
 use soffio_authoring::solid::{extrude, revolve};
 use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, ceiling, finishes, part, ring, rod};
 
-/// Position of the loop's bar, and distance of the swivel above it, m.
+/// Position of the loop's bar, m.
 const BAR: DVec3 = DVec3::new(0.0, 0.52, 0.0);
+/// Distance of the swivel above the bar, m.
 const SWIVEL: f64 = 16.0 * MM;
-/// Radii of the bar and of the wire, m.
+/// Radius of the bar, m.
 const BAR_RADIUS: f64 = 1.5 * MM;
+/// Radius of the arm's wire, m.
 const WIRE: f64 = 1.2 * MM;
 /// Depth of the arm's ends below its axis, m, which makes the balance stable.
 const DROOP: f64 = 90.0 * MM;
-/// Ends of the arm and of its straight part, from the origin of its axis, m.
+/// Left end of the arm, from the origin of its axis, m.
 const LEFT: f64 = -150.0 * MM;
+/// Right end of the arm, from the origin of its axis, m.
 const RIGHT: f64 = 230.0 * MM;
+/// Half length of the arm's straight part, on which it slides, m.
 const STRAIGHT: f64 = 62.0 * MM;
 /// Distance of the hammer beyond the right end, m.
 const REACH: f64 = 38.0 * MM;
+/// Radius of the hammer's head, m.
 const HAMMER: f64 = 6.0 * MM;
 /// Distance of the start position from the balance point, m.
 const OFF: f64 = -15.0 * MM;
@@ -41,6 +46,7 @@ const CYMBALS: [([&str; 4], f64, f64); 2] = [
     (["CymbalBack", "DiscBack", "StemBack", "HookBack"], 38.0 * MM, 0.7),
     (["CymbalFront", "DiscFront", "StemFront", "HookFront"], 30.0 * MM, -0.8),
 ];
+/// Thickness of a cymbal, m.
 const SHEET: f64 = 1.0 * MM;
 /// Distance from a cymbal's hook down to it, m.
 const HANG: f64 = 26.0 * MM;

@@ -20,6 +20,7 @@ use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 /// Thickness of all plates, m.
 const SHEET: f64 = 0.6 * MM;
+/// Position of the mobile's hook, m.
 const HOOK: DVec3 = DVec3::new(0.03, 0.76, 0.0);
 
 /// A leaf of `length` mm: a point, a belly, a blunt end; mirrored if `flipped`.
@@ -109,7 +110,9 @@ fn twig(k: usize, drawn: &Twig, finish: usize) -> TreeNode {
 
 /// The trap: a basket of ribs and hoops about a level axis, on a stem.
 fn trap() -> Piece {
+    /// Names of the ribs.
     const RIBS: [&str; 8] = ["Rib1", "Rib2", "Rib3", "Rib4", "Rib5", "Rib6", "Rib7", "Rib8"];
+    /// Names of the hoops, and their positions along the trap's axis, mm.
     const HOOPS: [(&str, f64); 4] = [("Hoop1", -46.0), ("Hoop2", -16.0), ("Hoop3", 16.0), ("Hoop4", 46.0)];
     let (half, belly, stem) = (78.0, 38.0, 44.0);
     let middle = -(stem + belly) * MM * DVec3::Y;

@@ -7,8 +7,9 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::revolve;
 use soffio_authoring::stock_parts::{BRASS, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
-/// Height of the rail, and half its length, m.
+/// Height of the rail above the floor, m.
 const RAIL: f64 = 400.0 * MM;
+/// Half length of the rail, m.
 const HALF: f64 = 190.0 * MM;
 /// Depth of the plate's centre under the rail, m.
 const DEPTH: f64 = 210.0 * MM;

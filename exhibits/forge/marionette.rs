@@ -21,24 +21,33 @@ use soffio_authoring::stock_parts::{
     Finishes, MM, ROUND, STEEL, WOOD, bent_rod_stand, finishes, part, rod, slab, write, y_to_z,
 };
 
+/// Position of the hook that the bar hangs from, m.
 const HOOK: DVec3 = DVec3::new(0.0, 452.0 * MM, 0.0);
-/// Height of the bar below its hook, and position of the hand rods on it.
+/// Height of the bar below its hook, m.
 const BAR: f64 = -12.0 * MM;
+/// Positions of the hand rods on the bar, m to each side.
 const BAR_END: f64 = 105.0 * MM;
+/// Top of the head, m.
 const CROWN: DVec3 = DVec3::new(0.0, 340.0 * MM, 0.0);
+/// Joint of the neck, m.
 const NECK: DVec3 = DVec3::new(0.0, 298.0 * MM, 0.0);
+/// Joint of the waist, m.
 const WAIST: DVec3 = DVec3::new(0.0, 224.0 * MM, 0.0);
-/// Points of the right side, at +x.
+/// Joint of the right shoulder, at +x, m.
 const SHOULDER: DVec3 = DVec3::new(36.0 * MM, 290.0 * MM, 0.0);
+/// Joint of the right elbow, m: 51 mm from the shoulder.
 const ELBOW: DVec3 = DVec3::new(46.94 * MM, 240.2 * MM, 0.0);
+/// Right hand, m.
 const HAND: DVec3 = DVec3::new(78.94 * MM, 261.55 * MM, 0.0);
-/// End of the rod to the hand: the thread between is lengthened by its load.
+/// End of the rod to the right hand, m: the thread between is lengthened by its load.
 const ROD_END: DVec3 = DVec3::new(79.2 * MM, 263.0 * MM, 0.0);
-/// The knees are slightly bent, so that forces on the feet do not hold the hips.
+/// Joint of the right hip, m. The knees are slightly bent, so that forces on the feet do not hold the hips.
 const HIP: DVec3 = DVec3::new(11.0 * MM, 196.0 * MM, 0.0);
+/// Joint of the right knee, m.
 const KNEE: DVec3 = DVec3::new(11.0 * MM, 132.85 * MM, 0.0);
-/// Height of the ankle, and its distance behind the knee: the shin with its foot is balanced.
+/// Height of the ankle above the floor, m.
 const ANKLE: f64 = 70.0 * MM;
+/// Distance of the ankle behind the knee, m: the shin with its foot is balanced.
 const BEHIND: f64 = 5.7 * MM;
 
 /// The same point on one of the sides: −1 left, 1 right.
@@ -102,6 +111,7 @@ struct Side {
     shoulder: &'static str,
 }
 
+/// Signs and names of the left and of the right side.
 const SIDES: [Side; 2] = [
     Side {
         sign: -1.0,

@@ -3,6 +3,9 @@
 //! Each `.glb` and each breath in `exhibits/` comes from this code, byte for byte. Invariant: no clock, no unseeded
 //! randomness, software transcendentals. The code shared with `soffio new` (sheet, wire, balance, glTF) is
 //! `soffio_authoring`.
+//!
+//! Lengths, positions, angles and masses are those of each exhibit's drawing. Where a constant names no other reason or
+//! source, the drawing's author chose it by eye. `MM` and `GRAM` turn the drawing's units into SI.
 
 use soffio_authoring::chimes;
 
@@ -45,6 +48,9 @@ pub struct Artifact {
 }
 
 /// Generates all files.
+///
+/// # Errors
+/// A sound file cannot be encoded.
 pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
     let (_, model) = steel_fish::glb();
     // Speeds at the lips of a gentle, a normal and a strong breath; the seeds make them differ.

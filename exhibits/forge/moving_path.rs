@@ -8,8 +8,9 @@ use soffio_authoring::piece::{BentWire, Piece};
 use soffio_authoring::solid::extrude;
 use soffio_authoring::stock_parts::{MM, STEEL, WOOD, bent_rod_stand, finishes, part, rod, write};
 
-/// Half width, half depth and height of the eight, m. The sidecar gives the nail's times.
+/// Half width and half depth of the eight, m. The sidecar gives the nail's times.
 const EIGHT: DVec2 = DVec2::new(150.0 * MM, 60.0 * MM);
+/// Height of the eight above the floor, m.
 const HEIGHT: f64 = 330.0 * MM;
 
 /// The point of the path after a fraction of a round.

@@ -15,15 +15,19 @@ use soffio_authoring::solid::revolve;
 use soffio_authoring::stock_parts::{ALUMINIUM, BRASS, MM, STEEL, ceiling, part};
 use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
+/// Position of the mobile's hook, m.
 const HOOK: DVec3 = DVec3::new(0.0, 0.66, 0.0);
-/// Radius of the hoop, and its height above the hook, m.
+/// Radius of the hoop, m.
 const HOOP: f64 = 195.0 * MM;
+/// Height of the hoop above the hook, m.
 const RAISED: f64 = 34.0 * MM;
 /// Depth of the centres of gongs and hammer below the hook, m.
 const LEVEL: f64 = 112.0 * MM;
-/// Diameter of the largest gong, thickness of all, and frequencies over the lowest.
+/// Diameter of the largest gong, m.
 const LARGEST: f64 = 110.0 * MM;
+/// Thickness of all gongs, m.
 const SHEET: f64 = 1.5 * MM;
+/// Frequencies of the gongs over the lowest: the major pentatonic scale in just intonation, and the octave.
 const PITCHES: [f64; 6] = [1.0, 9.0 / 8.0, 5.0 / 4.0, 3.0 / 2.0, 5.0 / 3.0, 2.0];
 /// Radius of the hammer's head, m.
 const HEAD: f64 = 8.0 * MM;

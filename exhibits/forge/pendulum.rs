@@ -16,8 +16,9 @@ use soffio_authoring::stock_parts::{
 const PERIOD: f64 = 2.0 * 3600.0 / 6720.0;
 /// Length of the simple pendulum of that period under 9.81 m/s²: 285.3 mm.
 const LENGTH: f64 = 9.81 * PERIOD * PERIOD / (4.0 * PI * PI);
-/// Height of the pivot above the floor.
+/// Height of the pivot above the floor, m.
 const PIVOT: f64 = 400.0 * MM;
+/// Radius of the bob, mm.
 const BOB_RADIUS: f64 = 24.0;
 
 /// The pendulum in its own frame, the pivot at the origin.

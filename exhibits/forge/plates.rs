@@ -7,8 +7,9 @@ use soffio_authoring::hanging::{SheetStock, disc};
 use soffio_authoring::mobile::{CascadeBranches, Mobile, cascade};
 use soffio_authoring::stock_parts::{MM, STEEL, bent_rod_stand, finishes};
 
-/// Position of the mobile's hook.
+/// Height of the mobile's hook above the floor, m.
 const HOOK: f64 = 330.0 * MM;
+/// Thickness of all discs, m.
 const SHEET: f64 = 0.6 * MM;
 /// Rotation of the lower branch relative to the upper one, rad: the middle disc hangs in front of the large one's rim,
 /// so a breath drives it against that rim.

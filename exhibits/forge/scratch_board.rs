@@ -8,13 +8,15 @@ use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{extrude, revolve};
 use soffio_authoring::stock_parts::{MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write};
 
-/// Board: length, width, thickness, and the height of its upper face.
+/// Length, width and thickness of the board, m.
 const SIZE: [f64; 3] = [360.0 * MM, 240.0 * MM, 12.0 * MM];
+/// Height of the board's upper face, m.
 const TOP: f64 = 40.0 * MM;
 /// Radius of the nib, a ball whose centre is the origin of the quill, m.
 const NIB: f64 = 1.5 * MM;
-/// Tilt of the quill to the back, rad, and length of its shaft, m.
+/// Tilt of the quill to the back, rad.
 const LEAN: f64 = 0.42;
+/// Length of the quill's shaft, m.
 const SHAFT: f64 = 150.0 * MM;
 
 /// The model.

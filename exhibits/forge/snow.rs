@@ -18,11 +18,13 @@ use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 const CHAIN: usize = 12;
 /// Thickness of the discs, m.
 const SHEET: f64 = 0.8 * MM;
-/// Diameters of a chain's first and last disc, and lengths of its first and last branch, mm.
+/// Diameters of a chain's first and last disc, mm; those between follow a geometric series.
 const DISCS: [f64; 2] = [66.0, 20.0];
+/// Lengths of a chain's first and last branch, mm.
 const LENGTHS: [f64; 2] = [208.0, 70.0];
 /// Depth of the centre of a branch's loads below its loop, m.
 const DEPTH: f64 = 11.0 * MM;
+/// Position of the mobile's hook, m.
 const HOOK: DVec3 = DVec3::new(-0.04, 0.82, 0.0);
 
 /// Term `i` of a geometric sequence from the first to the last.

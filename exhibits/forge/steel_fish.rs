@@ -33,9 +33,11 @@ const GRAM: f64 = 1e-3;
 /// Segments of a circle.
 const ROUND: usize = 64;
 
-/// Densities, kg/m³, as the sidecar's materials.
+/// Density of aluminium, kg/m³, as the sidecar's material.
 const ALUMINIUM: f64 = 2700.0;
+/// Density of lead, kg/m³, as the sidecar's material.
 const LEAD: f64 = 11_300.0;
+/// Density of brass, kg/m³, as the sidecar's material.
 const BRASS: f64 = 8500.0;
 
 /// Thickness of all plates, m.
@@ -53,15 +55,19 @@ const FISH_MASS: f64 = 27.3 * GRAM;
 const RED_MASS: f64 = 6.0 * GRAM;
 /// Distance of the lead weight's centre from the point along the boom, m.
 const LEAD_ARM: f64 = 92.0 * MM;
-/// Position of the hook of B2.
+/// Distance of the hook of B2 from the point along the boom, m.
 const TIP_ARM: f64 = 317.0 * MM;
 
-/// Directions of the pieces at rest, rad, which are free to choose, as hooks rotate freely. Seen from the front, the
-/// white disc hangs a finger's breadth in front of the long end of the red plate.
+/// Direction of B2 at rest, rad. Directions are free to choose, as hooks rotate freely. Seen from the front, the white
+/// disc hangs a finger's breadth in front of the long end of the red plate.
 const B2_YAW: f64 = -0.10;
+/// Direction of the red plate at rest, rad.
 const RED_YAW: f64 = -0.10;
+/// Direction of B4 at rest, rad.
 const B4_YAW: f64 = -0.52;
+/// Direction of the orange disc at rest, rad.
 const ORANGE_YAW: f64 = -0.45;
+/// Direction of the white disc at rest, rad.
 const WHITE_YAW: f64 = -0.05;
 
 /// Finishes of the meshes; paint is dielectric. The sidecar has the finishes of the wires.

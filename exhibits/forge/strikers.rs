@@ -12,10 +12,11 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, MM, ROUND, STEEL, WOOD, finishes, part, rod, slab, write, y_to_z,
 };
 
-/// Height of the rail, m.
+/// Height of the rail above the floor, m.
 const RAIL: f64 = 400.0 * MM;
-/// Distance from the rail down to the centre of a mallet's head, and radius of that head, m.
+/// Distance from the rail down to the centre of a mallet's head, m.
 const HEAD: f64 = 150.0 * MM;
+/// Radius of a mallet's head, m.
 const RADIUS: f64 = 11.0 * MM;
 /// Gap between head and instrument at rest, m.
 const GAP: f64 = 24.0 * MM;

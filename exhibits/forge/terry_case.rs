@@ -21,6 +21,7 @@ struct Interior {
     z: [f64; 2],
 }
 
+/// Inside of the case, m: it holds the wheels, the weights' fall and the pendulum's swing.
 const INSIDE: Interior = Interior { x: [-0.200, 0.220], y: [0.034, 0.492], z: [-0.098, 0.050] };
 /// Thickness of boards, m.
 const BOARD: f64 = 9.0 * MM;
@@ -30,7 +31,7 @@ const LEDGE: f64 = 14.0 * MM;
 const CHAPTERS_INNER: f64 = 82.0 * MM;
 /// Outer radius of the chapter ring, m.
 const CHAPTERS_OUTER: f64 = 101.0 * MM;
-/// Position of the chapter ring, in front of the wheels and behind the hands, m.
+/// Position of the chapter ring along z, m: in front of the wheels and behind the hands.
 const DIAL: f64 = 10.0 * MM;
 /// Width of the numerals' strokes, m.
 const STROKE: f64 = 1.7 * MM;

@@ -40,13 +40,17 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, finishes, meshing_phase, part, ring, rod, slab, spur_gear, y_to_z,
 };
 
-/// Teeth of the wheels and of their pinions.
+/// Teeth of the great wheel, and of the pinion that it drives.
 pub const GREAT: ToothCounts = ToothCounts { wheel: 64, pinion: 8 };
+/// Teeth of the minute wheel, and of the pinion that it drives.
 pub(crate) const MINUTE: ToothCounts = ToothCounts { wheel: 64, pinion: 8 };
+/// Teeth of the third wheel, and of the pinion that it drives.
 pub(crate) const THIRD: ToothCounts = ToothCounts { wheel: 60, pinion: 6 };
+/// Teeth of the escape wheel.
 pub(crate) const ESCAPE: usize = 42;
-/// Motion work: cannon and minute wheel, its pinion and the hour wheel.
+/// Teeth of the cannon pinion and of the minute wheel of the motion work.
 pub const CANNON: ToothCounts = ToothCounts { wheel: 12, pinion: 36 };
+/// Teeth of the minute wheel's pinion and of the hour wheel.
 pub(crate) const HOUR: ToothCounts = ToothCounts { wheel: 10, pinion: 40 };
 /// R: radius of the circle on which the teeth of the escape wheel end, m.
 pub const TIP: f64 = 22.5 * MM;
@@ -58,9 +62,11 @@ pub const TOOTH: f64 = 0.1 * MM;
 pub const DROP: f64 = 0.47 * MM;
 /// ψ: half the angle through which a pallet is pushed, rad.
 pub const LIFT: f64 = 2.25 * PI / 180.0;
-/// Thickness of a pallet, m.
+/// Length of a pallet's face, m.
 const FACE: f64 = 5.0 * MM;
+/// Thickness of a pallet, m.
 const THICKNESS: f64 = 0.6 * MM;
+/// Width of a pallet along its arbor, m.
 const WIDTH: f64 = 3.0 * MM;
 
 /// Length of the simple pendulum with the period of this one, m. It is regulated by the mean rate of twelve hours with
@@ -70,13 +76,15 @@ const WIDTH: f64 = 3.0 * MM;
 /// minutes before each hour, the train has less power and the clock loses, by 6 s a day at most; for most of the hour
 /// it gains 1 s a day.
 const LENGTH: f64 = 290.3952 * MM;
+/// Radius of the bob, m.
 const BOB_RADIUS: f64 = 20.0 * MM;
 /// Position of a leaf of sheet brass on the rod, m below the pivot. It is oblique, so that a breath from the front is
 /// deflected and pushes the pendulum; the leaf is an addition to Terry's design.
 const LEAF: f64 = 200.0 * MM;
 
-/// The time that the hands show at the start.
+/// Hour that the hands show at the start.
 const HOURS: usize = 10;
+/// Minute that the hands show at the start: ten minutes before the clock strikes.
 const MINUTES: f64 = 50.0;
 
 /// Positions of the arbors in the plane of the plates, m.

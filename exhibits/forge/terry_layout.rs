@@ -12,18 +12,22 @@ pub const MODULE: f64 = 1.0 * MM;
 /// Radius of the drum to the middle of the cord, m.
 pub const DRUM: f64 = 20.0 * MM;
 
-/// Layers: centres of wheels along z, m.
+/// Layer of the great wheels: centre along z, m.
 pub const BACK: f64 = -36.0 * MM;
+/// Layer of the minute arbor's wheel, m.
 pub(crate) const MIDDLE: f64 = -26.0 * MM;
+/// Layer of the third wheel, m.
 pub(crate) const FRONT: f64 = -16.0 * MM;
+/// Layer of the motion work, m.
 pub(crate) const MOTION: f64 = 4.0 * MM;
+/// Layer of the escapement, m.
 pub(crate) const ESCAPING: f64 = 8.0 * MM;
-/// Layer of the pendulum, in front of the dial and the hands.
+/// Layer of the pendulum, m: in front of the dial and the hands.
 pub const SWING: f64 = 30.0 * MM;
 /// Thickness of a wheel, m.
 pub(crate) const WHEEL: f64 = 4.0 * MM;
 
-/// Centre of the dial.
+/// Centre of the dial, m.
 pub const CENTER: DVec3 = DVec3::new(0.0, 0.36, 0.0);
 
 /// Direction from one point to another, rad.

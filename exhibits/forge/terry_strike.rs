@@ -25,10 +25,13 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, LEAD, MM, ROUND, STEEL, WOOD, meshing_phase, part, rod, slab, spur_gear, y_to_z,
 };
 
-/// Teeth of the wheels and of their pinions.
+/// Teeth of the great wheel, and of the pin wheel's pinion.
 pub const GREAT: ToothCounts = ToothCounts { wheel: 52, pinion: 8 };
+/// Teeth of the pin wheel, and of the lock wheel's pinion.
 pub(crate) const PIN: ToothCounts = ToothCounts { wheel: 64, pinion: 8 };
+/// Teeth of the lock wheel, and of the fly's pinion.
 pub(crate) const LOCK: ToothCounts = ToothCounts { wheel: 72, pinion: 6 };
+/// Teeth of the great wheel's pinion and of the count wheel.
 pub(crate) const COUNT: ToothCounts = ToothCounts { wheel: 20, pinion: 30 };
 /// Number of pins that lift the hammer.
 pub const PINS: usize = 8;
@@ -37,35 +40,49 @@ pub const BLOWS: usize = 78;
 /// Module of lock wheel and fly, m.
 const FINE: f64 = 0.7 * MM;
 
-/// Radius of the raised rim of the count wheel, and its height above the notches, m.
+/// Radius of the raised rim of the count wheel, m.
 const RIM: f64 = 45.0 * MM;
+/// Height of the rim above the notches, m.
 const RISE: f64 = 3.0 * MM;
-/// Positions of the rim after a lock, in strikes: where it begins to rise and has risen, and before the next lock where
-/// it begins to fall and has fallen. The follower must be down before the pin comes.
+/// Position after a lock at which the rim begins to rise, strikes.
 const FOOT: f64 = 0.22;
+/// Position after a lock at which the rim has risen, strikes.
 const TOP: f64 = 0.62;
+/// Position before the next lock at which the rim begins to fall, strikes.
 const EDGE: f64 = 0.75;
+/// Position before the next lock at which the rim has fallen, strikes. The follower must be down before the pin comes.
 const DOWN: f64 = 0.35;
-/// Radius of follower, pins and arms, m.
+/// Radius of the pins and of the arms, m.
 const PEG: f64 = 0.8 * MM;
+/// Radius of the follower, m.
 const FEELER: f64 = 1.0 * MM;
 
+/// Layer of the pin wheel: centre along z, m.
 const PIN_LAYER: f64 = -31.0 * MM;
+/// Layer of the lock wheel, m.
 const LOCK_LAYER: f64 = -21.0 * MM;
+/// Layer of the count lever, m.
 const LEVER_LAYER: f64 = -16.0 * MM;
+/// Layer of the flirt, m.
 const FLIRT_LAYER: f64 = -9.0 * MM;
+/// Layer of the count wheel, m.
 const COUNT_LAYER: f64 = 4.0 * MM;
+/// Layer of bell and hammer, m.
 const BELL_LAYER: f64 = -60.0 * MM;
 
-/// Radii of the pin circles: the hammer's, the lock's, and the minute arbor's, m.
+/// Radius of the circle of the pins that lift the hammer, m.
 const HAMMER_PINS: f64 = 12.0 * MM;
+/// Radius of the lock pin's circle, m.
 const LOCK_PIN: f64 = 18.0 * MM;
+/// Radius of the circle of the minute arbor's pin, m.
 pub(crate) const LIFTING_PIN: f64 = 10.0 * MM;
-/// Position of the lock pin on the lever's arm, rad, and its draw.
+/// Position of the lock pin on the lever's arm, rad.
 const LOCKED: f64 = 12.0 * PI / 180.0;
+/// Draw of the lock, rad: the pin pulls the arm in rather than out.
 const DRAW: f64 = 0.05;
-/// Lengths of the hammer's tail and of the flirt's left arm, m.
+/// Length of the hammer's tail, m.
 const TAIL: f64 = 27.4 * MM;
+/// Length of the flirt's left arm, m.
 const REACH: f64 = 50.4 * MM;
 /// Pins meet the arms beside their ends, by this angle further on, rad, so that they do not jam.
 const INSIDE: f64 = 0.16;
@@ -160,6 +177,7 @@ fn rise(hour: usize, now: f64) -> Solid {
     extrude(&outline, &[], WHEEL - 0.4 * MM, 0.1 * MM)
 }
 
+/// Names of the raised parts of the rim, each before the notch of its hour.
 const RISES: [&str; 11] =
     ["Hour02", "Hour03", "Hour04", "Hour05", "Hour06", "Hour07", "Hour08", "Hour09", "Hour10", "Hour11", "Hour12"];
 
@@ -213,6 +231,7 @@ fn pin_wheel(p: &ArborPositions, finishes: &Finishes) -> Piece {
         along_z("PinArbor", 2.2 * MM, (-48.0 * MM, 0.0), WOOD, wood),
     ];
     let met = hammer_met(p);
+    /// Names of the pins that lift the hammer.
     const LIFTS: [&str; PINS] = ["Lift1", "Lift2", "Lift3", "Lift4", "Lift5", "Lift6", "Lift7", "Lift8"];
     for (k, name) in LIFTS.into_iter().enumerate() {
         let angle = met - RUN_UP + 2.0 * PI * k as f64 / PINS as f64;

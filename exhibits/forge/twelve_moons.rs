@@ -16,7 +16,7 @@ use soffio_authoring::tree::{BranchNode, TreeNode, assemble_tree};
 
 /// Thickness of all moons, m.
 const SHEET: f64 = 1.0 * MM;
-/// Position of the mobile's hook.
+/// Position of the mobile's hook, m.
 const HOOK: DVec3 = DVec3::new(-0.21, 0.66, 0.0);
 /// Depth of the centre of a branch's loads below its loop, m.
 const DEPTH: f64 = 12.0 * MM;
@@ -40,7 +40,7 @@ const BOUGHS: [[f64; 8]; 11] = [
     [ 80.0,  13.6,   1.2, 215.9,  10.0, -0.08, -0.15,  24.0],
     [ 75.0,  11.9,   1.2, 197.5,  -9.0,  0.30,  0.20,  24.0],
 ];
-/// The last moon, at the lowest branch's right end: diameter, mass, direction, stem.
+/// The last moon, at the lowest branch's right end: diameter (mm), mass (g), direction (rad), length of its stem (mm).
 const LAST: [f64; 4] = [70.0, 10.4, -0.10, 30.0];
 /// Index of the red moon, as in an eclipse.
 const ECLIPSED: usize = 5;

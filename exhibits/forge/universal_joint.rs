@@ -9,11 +9,13 @@ use soffio_authoring::stock_parts::{
     BRASS, MM, ROUND, STEEL, VanePlacement, WOOD, finishes, part, ring, rod, slab, vane, y_to_z,
 };
 
-/// Height of both shafts, and the angle between them, rad.
+/// Height of both shafts above the floor, m.
 const SHAFT: f64 = 200.0 * MM;
+/// Angle between the shafts, rad: 35°, at which the dial's speed varies by ±20 %.
 pub(crate) const BEND: f64 = 0.61;
-/// Distances from the joint to the rotor and to the dial, m.
+/// Distance from the joint to the rotor, m.
 const ROTOR: f64 = 90.0 * MM;
+/// Distance from the joint to the dial, m.
 const DIAL: f64 = 140.0 * MM;
 
 /// The model: each shaft is the z axis of its node, the dial's rotated by the angle.

@@ -9,10 +9,11 @@ use soffio_authoring::stock_parts::{
     BRASS, MM, ROUND, STEEL, VanePlacement, WOOD, finishes, part, rod, slab, vane, write, y_to_z,
 };
 
-/// Height of the shaft above the floor.
+/// Height of the shaft above the floor, m.
 const SHAFT: f64 = 330.0 * MM;
-/// From the mast's axis to the rotor.
+/// Distance from the mast's axis to the rotor, m.
 const OVERHANG: f64 = 42.0 * MM;
+/// Names of the vanes.
 const VANES: [&str; 4] = ["Vane1", "Vane2", "Vane3", "Vane4"];
 
 /// The model: the shaft is the z axis of head and rotor, the mast the y axis.

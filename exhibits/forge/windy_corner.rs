@@ -12,17 +12,21 @@ use soffio_authoring::stock_parts::{
     BRASS, Finishes, MM, ROUND, STEEL, VanePlacement, WOOD, bent_rod_stand, finishes, part, ring, rod, vane, y_to_z,
 };
 
-/// Bristol board of 300 g/m²: kg/m³ and m. The sidecar's material says the same.
+/// Density of Bristol board of 300 g/m², kg/m³, as the sidecar's material.
 const CARD: f64 = 750.0;
+/// Thickness of Bristol board of 300 g/m², m.
 const THICKNESS: f64 = 0.4 * MM;
-/// Where the pinwheel turns, and how far behind it the vent blows.
+/// Position of the pinwheel's axle, m.
 const PINWHEEL: DVec3 = DVec3::new(-0.125, 0.25, 0.0);
+/// Distance of the vent behind the pinwheel, m.
 const VENT: f64 = 200.0 * MM;
-/// Where the mobile hangs, and the middle of the window that its draught comes through.
+/// Position of the mobile's hook, m.
 const HOOK: DVec3 = DVec3::new(0.12, 0.35, 0.0);
+/// Middle of the window that the mobile's draught comes through, m.
 const WINDOW: DVec3 = DVec3::new(0.23, 0.24, -0.24);
-/// The lower branch against the upper one, rad.
+/// Direction of the lower branch relative to the upper one, rad.
 const LOWER_YAW: f64 = 0.9;
+/// Names of the pinwheel's vanes.
 const VANES: [&str; 5] = ["Vane1", "Vane2", "Vane3", "Vane4", "Vane5"];
 
 /// A rectangle about `middle`.

@@ -33,7 +33,7 @@ pub struct Finish {
 pub struct Glass {
     /// Thickness of the wall, m.
     pub wall_thickness: f64,
-    /// Index of refraction.
+    /// Index of refraction n: 1.5 for window glass.
     pub ior: f64,
     /// Transmitted fraction of the light, 0…1.
     pub transmission: f64,

@@ -182,11 +182,11 @@ pub struct Statics {
     pub total_mass: f64,
     /// Largest horizontal distance of a piece's loaded centre of mass from its hook, m.
     pub worst_offset: f64,
-    /// Moment of inertia about the vertical through the hook, loads at their joints, kg m².
+    /// Moment of inertia about the vertical through the hook, kg m². Each hanging piece counts as a point mass at its hook.
     pub yaw_inertia: f64,
-    /// Depth of the centre of mass below the hook, loads at their joints, m.
+    /// Depth of the centre of mass below the hook, m; hanging pieces count likewise.
     pub depth: f64,
-    /// Period of the tilt, s.
+    /// Period of small oscillations about the hook, in the plane of the arm, s.
     pub tilt_period: f64,
 }
 

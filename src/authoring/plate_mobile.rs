@@ -364,6 +364,9 @@ impl FramingCamera {
 }
 
 /// A plate by its size: `120x80` is 120 mm wide and 80 high with round corners, `100` a disc of 100 mm.
+///
+/// # Errors
+/// The text is no size, or the size is out of range; the diagnostic says how it is written.
 pub fn sized(text: &str) -> Result<Outline, Diagnostic> {
     let wrong = || {
         rejection(

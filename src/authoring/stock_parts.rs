@@ -61,7 +61,7 @@ pub fn finishes(scene: &mut Scene) -> Finishes {
     }
 }
 
-/// A round rod about y, from `low` to `high`.
+/// A round rod of this radius about y, from `low` to `high`, m, with bevelled edges.
 pub fn rod(radius: f64, low: f64, high: f64) -> Solid {
     let edge = 0.15 * radius.min(0.5 * (high - low));
     let profile =
@@ -70,22 +70,22 @@ pub fn rod(radius: f64, low: f64, high: f64) -> Solid {
     revolve(&profile, ROUND)
 }
 
-/// A flat ring about y, `thickness` high.
+/// A flat ring about y between two radii, `thickness` high, m.
 pub fn ring(inner: f64, outer: f64, thickness: f64) -> Solid {
     let half = 0.5 * thickness;
     let corners = [(inner, -half), (outer, -half), (outer, half), (inner, half)];
     revolve_ring(&corners.map(|(r, y)| DVec2::new(r, y)), 2 * ROUND)
 }
 
-/// A thin board with its long side along x.
+/// A thin board in the xy plane, its length along x and its width along y, m.
 pub fn slab(length: f64, width: f64, thickness: f64) -> Solid {
     let (x, y) = (0.5 * length, 0.5 * width);
     let outline: Polygon = [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| DVec2::new(x, y)).into();
     extrude(&outline, &[], thickness, 0.15 * thickness)
 }
 
-/// A spur gear with straight-sided teeth: `module` is twice the pitch radius over the number of teeth. The middle of a
-/// tooth is at the angle `phase`, rad.
+/// A spur gear with straight-sided teeth about z: `module` is twice the pitch radius over the number of teeth, m. The middle
+/// of a tooth is at the angle `phase`, rad. `thickness` in m; `holes` are cut out of its disc, m.
 pub fn spur_gear(teeth: usize, module: f64, thickness: f64, phase: f64, holes: &[Polygon]) -> Solid {
     let pitch = 0.5 * module * teeth as f64;
     let (tip, root) = (pitch + module, pitch - 1.25 * module);
@@ -112,7 +112,8 @@ pub fn y_to_z() -> DQuat {
     rotation(0.5 * PI * DVec3::X)
 }
 
-/// A part with its frame at `position` and `rotation`.
+/// A part with its frame at `position`, m, and `rotation`; `density` in kg/m³, `finish` the index of its material in the
+/// model.
 pub fn part(name: &'static str, solid: Solid, position: DVec3, rotation: DQuat, density: f64, finish: usize) -> Part {
     Part { name, solid, place: Pose { rotation, position }, density, finish }
 }
@@ -128,7 +129,8 @@ pub struct VanePlacement {
     pub pitch: f64,
 }
 
-/// A vane of a fan: its long side points outwards.
+/// A vane of a fan, a thin board whose long side points outwards: `size` is its length, width and thickness, m, `density` in
+/// kg/m³, `finish` the index of its material in the model.
 pub fn vane(name: &'static str, size: [f64; 3], at: VanePlacement, density: f64, finish: usize) -> Part {
     let VanePlacement { radius, angle, pitch } = at;
     let turn = rotation(angle * DVec3::Z);

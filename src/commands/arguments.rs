@@ -30,12 +30,18 @@ impl SolverArg {
 }
 
 /// Reads a positive number of seconds.
+///
+/// # Errors
+/// The text is no positive number up to a million.
 pub fn parse_seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse::<f64>().ok().filter(|s| s.is_finite() && *s > 0.0 && *s <= 1e6);
     seconds.ok_or_else(|| format!("\"{text}\" is no length; write seconds, as in 12.5"))
 }
 
 /// Reads `WxH`.
+///
+/// # Errors
+/// The text is not of this form, or a side is 0 or above 16384.
 pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let wrong = || format!("\"{text}\" is no size; write pixels, as in 1280x720, at most 16384 a side");
     let (w, h) = text.split_once('x').ok_or_else(wrong)?;

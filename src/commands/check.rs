@@ -141,7 +141,7 @@ fn texts_report(path: &Path) -> Report {
     let text = text.trim_start_matches('\u{feff}');
     let diagnostics = ui_strings::check(path).into_iter().map(|problem| {
         let code = if problem.is_warning { codes::MISSING_TEXTS } else { codes::TEXTS };
-        let (line, column) = problem.place;
+        let (line, column) = (problem.line, problem.column);
         let placed = problem.span.map(|span| Location { file: file.clone(), line, column, span });
         let message = if placed.is_some() { problem.message } else { format!("{file}: {}", problem.message) };
         let mut diagnostic = Diagnostic::new(code, message).help(problem.help);

@@ -39,6 +39,9 @@ pub struct Args {
 }
 
 /// Reads `WxH`.
+///
+/// # Errors
+/// The text is not of this form, or a side is 0.
 pub fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let size = text.split_once(['x', 'X', '×']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     match size {

@@ -13,12 +13,18 @@ use soffio_simulation::Settings;
 use soffio_sound::ReverbSpec;
 
 /// Loads an exhibit by its id or folder; all its problems are in the error.
+///
+/// # Errors
+/// There is no such exhibit, or it has problems.
 pub fn open(id_or_folder: &str) -> Result<Arc<Exhibit>, Failure> {
     let folder = exhibit::resolve(id_or_folder).map_err(Failure::input)?;
     exhibit::load(&folder).map(Arc::new).map_err(Failure::input)
 }
 
 /// The site's configuration: that of a file, or the one that is found from here. Its warnings go to stderr.
+///
+/// # Errors
+/// The file cannot be read, or it has problems.
 pub fn config(file: Option<&Path>) -> Result<Config, Failure> {
     let loaded = Config::load(file).map_err(Failure::input)?;
     print_warnings(&loaded);
@@ -31,11 +37,17 @@ fn print_warnings(loaded: &LoadedConfig) {
 }
 
 /// Constants of a run as the site's configuration has them.
+///
+/// # Errors
+/// The configuration has problems.
 pub fn settings() -> Result<Settings, Failure> {
     Ok(config(None)?.simulation_settings(1))
 }
 
 /// The reverberation of the site's configuration.
+///
+/// # Errors
+/// The configuration has problems.
 pub fn reverb() -> Result<Option<ReverbSpec>, Failure> {
     Ok(config(None)?.reverb.spec())
 }

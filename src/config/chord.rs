@@ -5,30 +5,47 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+/// Modifier keys that are held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Modifiers {
+    /// Is Control held?
+    pub ctrl: bool,
+    /// Is Alt held?
+    pub alt: bool,
+    /// Is Shift held?
+    pub shift: bool,
+}
+
+impl Modifiers {
+    /// Control and Alt: the modifiers of the default chords.
+    pub const CTRL_ALT: Self = Self { ctrl: true, alt: true, shift: false };
+
+    /// Number of modifiers that are held.
+    fn count(self) -> usize {
+        [self.ctrl, self.alt, self.shift].into_iter().filter(|held| *held).count()
+    }
+}
+
 /// Keys pressed together. Invariant: at least two modifiers, so that a visitor who leans on a keyboard does not press it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(with = "String")]
 pub struct Chord {
-    /// Control held.
-    pub ctrl: bool,
-    /// Alt held.
-    pub alt: bool,
-    /// Shift held.
-    pub shift: bool,
+    /// The modifiers.
+    pub modifiers: Modifiers,
     /// The key itself: one letter or digit in upper case, or `F1` … `F12`.
     pub key: String,
 }
 
 impl Chord {
-    /// A chord of modifiers and a key.
-    pub fn new(ctrl: bool, alt: bool, shift: bool, key: &str) -> Self {
-        Self { ctrl, alt, shift, key: key.to_uppercase() }
+    /// A chord of modifiers and a key, in upper or lower case.
+    pub fn new(modifiers: Modifiers, key: &str) -> Self {
+        Self { modifiers, key: key.to_uppercase() }
     }
 
-    /// Is this the chord, with exactly these modifiers?
-    pub fn matches(&self, ctrl: bool, alt: bool, shift: bool, key: &str) -> bool {
-        (self.ctrl, self.alt, self.shift) == (ctrl, alt, shift) && self.key.eq_ignore_ascii_case(key)
+    /// Is this the chord, with exactly these modifiers? Upper and lower case of the key are the same.
+    pub fn matches(&self, modifiers: Modifiers, key: &str) -> bool {
+        self.modifiers == modifiers && self.key.eq_ignore_ascii_case(key)
     }
 }
 
@@ -36,12 +53,12 @@ impl FromStr for Chord {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let mut chord = Self::new(false, false, false, "");
+        let mut chord = Self::new(Modifiers::default(), "");
         for part in text.split('+').map(|part| part.trim().to_uppercase()) {
             match part.as_str() {
-                "CTRL" => chord.ctrl = true,
-                "ALT" => chord.alt = true,
-                "SHIFT" => chord.shift = true,
+                "CTRL" => chord.modifiers.ctrl = true,
+                "ALT" => chord.modifiers.alt = true,
+                "SHIFT" => chord.modifiers.shift = true,
                 key if chord.key.is_empty() && is_key(key) => chord.key = key.into(),
                 other => {
                     return Err(format!(
@@ -50,8 +67,7 @@ impl FromStr for Chord {
                 }
             }
         }
-        let modifiers = [chord.ctrl, chord.alt, chord.shift].iter().filter(|&&held| held).count();
-        match (chord.key.is_empty(), modifiers) {
+        match (chord.key.is_empty(), chord.modifiers.count()) {
             (true, _) => Err(format!("\"{text}\" names no key: write for example \"Ctrl+Alt+S\"")),
             (_, 0 | 1) => Err(format!("\"{text}\" is easily pressed by a visitor: use two of Ctrl, Alt and Shift")),
             _ => Ok(chord),
@@ -68,7 +84,8 @@ fn is_key(key: &str) -> bool {
 
 impl fmt::Display for Chord {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        for (held, name) in [(self.ctrl, "Ctrl+"), (self.alt, "Alt+"), (self.shift, "Shift+")] {
+        let Modifiers { ctrl, alt, shift } = self.modifiers;
+        for (held, name) in [(ctrl, "Ctrl+"), (alt, "Alt+"), (shift, "Shift+")] {
             if held {
                 f.write_str(name)?;
             }

@@ -70,7 +70,14 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<(Config, Vec<Problem>), C
     let source = &Source { text, updated: renamed::update(FileKind::Configuration, text) };
     let document = match Document::parse(&*source.updated.text) {
         Ok(document) => document,
-        Err(error) => return fail(vec![source.located(error.span(), error.message().into(), GRAMMAR.into())]),
+        Err(error) => {
+            let duplicate = error.span().and_then(|span| source.updated.duplicate(text, span));
+            let (message, help) = duplicate.map_or_else(
+                || (error.message().to_owned(), GRAMMAR.to_owned()),
+                |name| (name.duplicate_message(), name.duplicate_help()),
+            );
+            return fail(vec![source.located(error.span(), message, help)]);
+        }
     };
     let mut check = KeyCheck { source, problems: Vec::new() };
     check.table(document.as_table(), &defaults(), "");

@@ -51,7 +51,7 @@ mod pin;
 pub mod remedies;
 mod time_text;
 
-pub use chord::Chord;
+pub use chord::{Chord, Modifiers};
 pub use diagnose::{ConfigError, Problem};
 pub use groups::ExhibitGroup;
 pub use hours::{Hours, TimeOfDay};
@@ -433,7 +433,7 @@ pub struct Staff {
 
 impl Default for Staff {
     fn default() -> Self {
-        let chord = |key| Chord::new(true, true, false, key);
+        let chord = |key| Chord::new(Modifiers::CTRL_ALT, key);
         Self {
             chord: chord("S"),
             pin: Pin::default(),

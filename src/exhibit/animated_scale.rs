@@ -5,7 +5,7 @@ use super::model::Track;
 use super::shape_tracks::ShapeTrack;
 use soffio_math::{DMat4, DQuat, DVec3};
 
-/// World transform of a node as a function of time, as far as animated scales change it: its own and its ancestors'.
+/// World transform of a node as a function of time, where key frames animate its own scale or an ancestor's.
 #[derive(Clone, Debug)]
 pub struct AnimatedScale(Vec<Link>);
 

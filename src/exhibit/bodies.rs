@@ -80,7 +80,7 @@ pub struct Wire {
     pub radius: f64,
     /// Index of the physical material.
     pub material: usize,
-    /// Linear RGB base colour.
+    /// Base colour, linear RGB, 0 … 1.
     pub color: [f32; 3],
     /// Metalness: 0 dielectric … 1 metal.
     pub metallic: f32,

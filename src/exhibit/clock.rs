@@ -20,7 +20,7 @@ pub const DIAL_PERIOD: f64 = 12.0 * HOUR;
 /// The hands of a clock.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clock {
-    /// Index of the body of the minute hand, which a clutch holds.
+    /// Index of the minute hand among the exhibit's bodies. A clutch holds it on its arbor, so that it can be set.
     pub minute_hand: usize,
     /// Axis of its clockwise rotation, unit, node frame.
     pub axis: DVec3,

@@ -157,6 +157,9 @@ pub fn ids() -> Vec<String> {
 }
 
 /// The folder of an exhibit: an id under `exhibits/`, or a folder.
+///
+/// # Errors
+/// There is no such folder; the report names similar ids.
 pub fn resolve(id_or_folder: &str) -> Result<PathBuf, Report> {
     let folder = PathBuf::from(id_or_folder);
     if folder.join(SIDECAR).is_file() {

@@ -30,7 +30,7 @@ pub struct SidecarText {
 }
 
 impl SidecarText {
-    /// Parses TOML.
+    /// Parses the text of a sidecar, TOML. `file` is its name in messages; old names of keys are read as the new ones.
     ///
     /// # Errors
     /// The syntax error, with its position.
@@ -52,8 +52,11 @@ impl SidecarText {
             }
             Err(error) => {
                 let span = error.span().unwrap_or(0..0);
-                let mut diagnostic = Diagnostic::new(codes::SYNTAX, format!("this is not TOML: {}", error.message()))
-                    .help("see https://toml.io; a text needs quotes, a table name brackets");
+                let mut diagnostic = match source.updated.duplicate(text, span.clone()) {
+                    Some(name) => Diagnostic::new(codes::SYNTAX, name.duplicate_message()).help(name.duplicate_help()),
+                    None => Diagnostic::new(codes::SYNTAX, format!("this is not TOML: {}", error.message()))
+                        .help("see https://toml.io; a text needs quotes, a table name brackets"),
+                };
                 diagnostic.location = Some(source.locate(span));
                 Err(diagnostic)
             }

@@ -13,14 +13,14 @@
 use super::exhibit::Exhibit;
 use soffio_math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
 
-/// A perspective camera in the world.
+/// A perspective (pinhole) camera in the world frame, whose y axis points up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Position of the camera, m.
     pub eye: DVec3,
     /// Point looked at, m. The breath is aimed in the plane through it that faces the camera.
     pub target: DVec3,
-    /// Up vector, unit.
+    /// Up vector of the picture, unit, world frame.
     pub up: DVec3,
     /// Vertical field of view, rad.
     pub fovy: f64,

@@ -8,7 +8,7 @@ use soffio_math::{DMat3, DQuat, DVec3, Pose, StateHash, product, renormalized, r
 /// Mass, centre and inertia of a rigid body, constant for its life.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassProperties {
-    /// kg.
+    /// Mass, kg.
     pub mass: f64,
     /// Centre of mass in the node frame, m.
     pub center: DVec3,

@@ -39,7 +39,9 @@ const WAITING: usize = 48;
 /// A box along the axes, from its least corner to its greatest, m.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Aabb {
+    /// Least corner, m.
     pub low: Vec3A,
+    /// Greatest corner, m.
     pub high: Vec3A,
 }
 

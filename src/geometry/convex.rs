@@ -33,7 +33,9 @@ const ROUNDS: usize = 128;
 pub(super) struct Corner {
     /// a − b.
     pub w: DVec3,
+    /// Its point on A, m.
     pub a: DVec3,
+    /// Its point on B, m.
     pub b: DVec3,
 }
 
@@ -48,9 +50,13 @@ impl Corner {
 /// Where the walk ended: the simplex whose nearest point to the origin is v = Σ weight · w.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Walk {
+    /// Corners of the simplex; the first `n` are used.
     pub simplex: [Corner; 4],
+    /// Weight of each corner; they are positive and sum to 1.
     pub weights: [f64; 4],
+    /// Number of corners, 1 to 4.
     pub n: usize,
+    /// v, the point of the simplex nearest to the origin, m.
     pub v: DVec3,
 }
 

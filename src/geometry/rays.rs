@@ -45,9 +45,9 @@ impl Hint {
 /// A line of sight.
 #[derive(Clone, Copy, Debug)]
 pub struct SightLine {
-    /// World, m.
+    /// Start of the ray, world, m.
     pub origin: DVec3,
-    /// World, unit.
+    /// Direction of the ray, world, unit.
     pub direction: DVec3,
     /// Length, m.
     pub far: f64,
@@ -168,7 +168,7 @@ impl Occluders {
         Self { boxes: Boxes::new(parts.iter().map(Part::aabb).collect()), parts }
     }
 
-    /// Moves the parts to where `pose` says that their bodies are.
+    /// Updates the meshes for new poses: `pose` gives the present pose of the body with an index. Meshes of the world stay.
     pub fn refit(&mut self, pose: impl Fn(usize) -> Pose) {
         self.boxes.refit(self.parts.iter_mut().enumerate().filter_map(|(index, part)| {
             let Pose { rotation, position } = pose(part.body?);
@@ -178,8 +178,8 @@ impl Occluders {
         }));
     }
 
-    /// From where to where the triangles that a body carries ray_length along a direction (unit, the body's frame), m from its
-    /// frame's origin.
+    /// Lowest and highest coordinate, along a direction (unit, the body's frame), of the triangles that a body carries, m
+    /// from its frame's origin. Without triangles: +∞ and −∞.
     pub fn extent(&self, body: usize, along: DVec3) -> (f64, f64) {
         let parts = self.parts.iter().filter(|part| part.body == Some(body));
         let corners = parts.flat_map(|part| &part.triangles).flat_map(|Triangle(corners)| corners);

@@ -32,7 +32,7 @@ pub enum Function {
         keys: Vec<(f64, f64)>,
         /// What happens between two keys.
         interpolation: Interpolation,
-        /// Begins anew after the last key; otherwise the last value stays.
+        /// Repeats from the first key after the last one; otherwise the last value stays.
         repeat: bool,
     },
     /// A sine about a mean.
@@ -121,6 +121,9 @@ pub struct Span {
 
 /// Where `t` falls among `count` (at least one) keys of rising times. Before the first key and from the last one on it
 /// is in no span: the error is the key that it stays at.
+///
+/// # Errors
+/// `t` is in no span: the index of the key that the function stays at.
 pub fn span(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> Result<Span, usize> {
     let (first, last) = (time(0), time(count - 1));
     let length = last - first;

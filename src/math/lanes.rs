@@ -25,7 +25,7 @@ pub const WIDTH: usize = 4;
 pub struct Four(pub [f64; WIDTH]);
 
 impl Four {
-    /// The same for all.
+    /// The same number in all four lanes.
     #[inline]
     pub const fn splat(x: f64) -> Self {
         Self([x; WIDTH])

@@ -33,6 +33,9 @@ impl AtomicFile {
     }
 
     /// A second handle to the same file, for writers that take ownership.
+    ///
+    /// # Errors
+    /// The system has no handle left.
     pub fn reopen(&self) -> io::Result<File> {
         self.out.get_ref().reopen()
     }
@@ -43,6 +46,9 @@ impl AtomicFile {
     }
 
     /// Renames the file to its destination.
+    ///
+    /// # Errors
+    /// The file cannot be flushed or renamed.
     pub fn finish(self) -> io::Result<()> {
         let file = self.out.into_inner().map_err(|e| failed(&self.path, e.error()))?;
         file.persist(&self.path).map_err(|e| failed(&self.path, &e.error))?;

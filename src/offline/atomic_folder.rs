@@ -13,6 +13,9 @@ pub struct AtomicFolder {
 
 impl AtomicFolder {
     /// Creates a temporary folder beside `path`, which must not exist.
+    ///
+    /// # Errors
+    /// `path` exists, or the folder cannot be created.
     pub fn create(path: &Path) -> io::Result<Self> {
         let taken = || io::Error::new(io::ErrorKind::AlreadyExists, format!("{} is there already", path.display()));
         if path.symlink_metadata().is_ok() {
@@ -36,6 +39,9 @@ impl AtomicFolder {
     }
 
     /// Writes a file, `name` with forward slashes; missing subfolders are created.
+    ///
+    /// # Errors
+    /// The file or a subfolder cannot be written.
     pub fn write(&self, name: &str, bytes: &[u8]) -> io::Result<()> {
         let path = self.aside.path().join(name);
         if let Some(folder) = path.parent() {
@@ -47,6 +53,9 @@ impl AtomicFolder {
     }
 
     /// Renames the folder to its destination.
+    ///
+    /// # Errors
+    /// The folder cannot be renamed.
     pub fn finish(self) -> io::Result<()> {
         // An empty folder created meanwhile would be replaced silently.
         if self.path.symlink_metadata().is_ok() {

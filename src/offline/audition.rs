@@ -30,6 +30,9 @@ pub enum AuditionError {
 
 impl TestSound {
     /// Renders so many seconds, mono, dry, at 1 m; full scale is ±1 and can be exceeded.
+    ///
+    /// # Errors
+    /// The preset does not fit the specimen's body.
     pub fn render(&self, preset: &Preset, specimen: &Specimen, seconds: f64) -> Result<Vec<f32>, AuditionError> {
         let mut spec = specimen.spec(&preset.name);
         spec.surface = self.surface.clone();

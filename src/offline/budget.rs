@@ -44,13 +44,13 @@ pub struct LateStep {
 pub struct Findings {
     /// The first late step of each kind of load.
     pub late: Vec<LateStep>,
-    /// Number of loads that were run without a late step.
+    /// Number of loads that were run to their end or to a late step.
     pub tried: usize,
     /// Number of all loads.
     pub of: usize,
 }
 
-/// Runs an exhibit under all loads.
+/// Runs an exhibit under all stress loads and finds the steps that a kiosk could not compute in time.
 pub fn check(exhibit: &Arc<Exhibit>) -> Findings {
     check_within(exhibit, BUDGET, MAX_CHECK_SECONDS)
 }

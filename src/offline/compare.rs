@@ -97,15 +97,15 @@ pub struct Summary {
     pub end_rms_m: f64,
     /// Time at which a body first differs by more than 1 mm, s; `None` where none does.
     pub apart_1mm_s: Option<f64>,
-    /// Energy of constrained dynamics at the end, J.
+    /// Mechanical energy at the end by constrained dynamics, J.
     pub energy_dynamics_j: f64,
-    /// Energy of the other mode at the end, J.
+    /// Mechanical energy at the end by the other motion mode, J.
     pub energy_other_j: f64,
-    /// Rms energy difference over all steps, J.
+    /// Rms difference of the mechanical energies over all steps, J.
     pub energy_rms_j: f64,
-    /// Largest energy difference, J.
+    /// Largest difference of the mechanical energies, J.
     pub energy_max_j: f64,
-    /// Largest joint error of either run, m.
+    /// Largest joint error of constrained dynamics and of the other mode, m.
     pub max_joint_error_m: [f64; 2],
     /// Number of events of constrained dynamics.
     pub events_dynamics: u64,
@@ -113,7 +113,7 @@ pub struct Summary {
     pub events_other: u64,
     /// First difference of the events.
     pub first_difference: Option<FirstDifference>,
-    /// Number of invalid states found and recovered in either run.
+    /// Number of invalid states that were found and recovered, by constrained dynamics and by the other mode.
     pub faults: [u64; 2],
     /// Seed of both runs.
     pub seed: u64,
@@ -220,7 +220,7 @@ struct DifferenceMeter {
     farthest: (f64, usize, f64),
     /// Largest rotation difference, degrees.
     max_rotation: f64,
-    /// Largest energy difference, J.
+    /// Largest difference of the mechanical energies, J.
     energy_max: f64,
     /// Time at which a body first differed by more than [`SEPARATION`], s.
     first_apart: Option<f64>,
@@ -296,6 +296,9 @@ struct ChartQuantity<'a> {
 
 impl Comparison {
     /// Writes the samples as CSV.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn write_csv(&self, path: &Path) -> std::io::Result<()> {
         let mut file = AtomicFile::create(path)?;
         writeln!(file, "t,rms_m,max_m,rms_deg,max_deg,energy_dynamics_j,energy_other_j,events_dynamics,events_other")?;
@@ -307,6 +310,9 @@ impl Comparison {
     }
 
     /// Draws the differences over time as a PNG.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn write_picture(&self, path: &Path, exhibit: &Exhibit) -> Result<(), PlayError> {
         let mut canvas = Canvas::new(WIDTH, HEIGHT);
         let Summary { solver, rms_m, rms_deg, .. } = &self.summary;

@@ -33,11 +33,17 @@ pub struct EventWriter {
 
 impl EventWriter {
     /// Creates a log of the exhibit's events.
+    ///
+    /// # Errors
+    /// The file cannot be created.
     pub fn create(path: &Path, exhibit: &Arc<Exhibit>) -> io::Result<Self> {
         Ok(Self { file: AtomicFile::create(path)?, exhibit: exhibit.clone() })
     }
 
     /// Adds the events of a step.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn push(&mut self, events: &[Event]) -> io::Result<()> {
         for event in events {
             let line = EventLine {
@@ -58,6 +64,9 @@ impl EventWriter {
     }
 
     /// Completes the file.
+    ///
+    /// # Errors
+    /// The file cannot be written or renamed.
     pub fn finish(self) -> io::Result<()> {
         self.file.finish()
     }

@@ -38,6 +38,9 @@ impl<T: Blend> Frames<T> {
 
     /// Takes a step and the state after it. `each` receives the number and the interpolated state of every frame that
     /// is due. Steps come in order, each once, from the start.
+    ///
+    /// # Errors
+    /// An error of `each`.
     pub fn push<E>(
         &mut self,
         step: u64,

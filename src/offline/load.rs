@@ -68,7 +68,7 @@ fn movable(exhibit: &Exhibit) -> Vec<usize> {
 
 /// An exhibit under a load.
 pub struct LoadRun {
-    /// The simulation.
+    /// The simulation of the exhibit.
     pub simulation: Simulation,
     load: StressLoad,
     /// Bodies that are dragged, in turn.
@@ -77,7 +77,7 @@ pub struct LoadRun {
 }
 
 impl LoadRun {
-    /// The start of a run, with the settings of a kiosk.
+    /// Starts a run of the exhibit under this load, with the default settings, which are a kiosk's.
     pub fn new(exhibit: &Arc<Exhibit>, load: StressLoad) -> Self {
         let movable = movable(exhibit);
         let dragged = MAX_GRABBED.min(movable.len());
@@ -85,7 +85,7 @@ impl LoadRun {
         Self { simulation: Simulation::new(exhibit.clone(), Settings::default()), load, bodies, step: 0 }
     }
 
-    /// Number of steps of the whole run.
+    /// Number of simulation steps (1/240 s) of the whole run.
     pub fn steps(&self) -> usize {
         let seconds = match self.load {
             StressLoad::Assembly(_) => ASSEMBLY_DURATION + BREATH_START,

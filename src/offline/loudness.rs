@@ -139,6 +139,9 @@ fn scene(exhibit: &Arc<Exhibit>, settings: Settings) -> Result<Vec<Vec<SoundComm
 }
 
 /// Writes the level into the exhibit's sidecar and leaves the rest of the file unchanged.
+///
+/// # Errors
+/// The sidecar cannot be read, changed or written; the reason.
 pub fn write(folder: &Path, level_db: f64) -> Result<(), String> {
     let path = folder.join(SIDECAR);
     let says = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());

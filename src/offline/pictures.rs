@@ -35,6 +35,9 @@ impl Pictures {
     }
 
     /// Draws a snapshot through its camera.
+    ///
+    /// # Errors
+    /// The graphics device fails.
     pub fn draw(&mut self, snapshot: &Snapshot) -> Result<RgbaImage, RenderError> {
         let view = self.exhibit.view(f64::from(self.size.0) / f64::from(self.size.1)).orbited(snapshot.turn);
         let frame = FrameInput {
@@ -50,6 +53,9 @@ impl Pictures {
 }
 
 /// Writes a PNG atomically.
+///
+/// # Errors
+/// The file cannot be written.
 pub fn write_png(picture: &RgbaImage, path: &Path) -> std::io::Result<()> {
     let mut bytes = Vec::new();
     picture.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(std::io::Error::other)?;

@@ -46,7 +46,7 @@ pub struct Play {
     pub audio: Option<PathBuf>,
     /// Reverb; `None` is the open air.
     pub reverb: Option<ReverbSpec>,
-    /// Without reverb and limiter?
+    /// Is the sound rendered without reverb and limiter?
     pub dry: bool,
     /// Path of the trace, CSV.
     pub trace: Option<PathBuf>,
@@ -63,7 +63,7 @@ pub struct Summary {
     pub steps: u64,
     /// Wall time of the run, s.
     pub wall_s: f64,
-    /// Processor time of all threads, s.
+    /// Processor time of the run, all threads together, s.
     pub cpu_s: f64,
     /// Simulated time over wall time.
     pub real_time_factor: f64,

@@ -73,6 +73,9 @@ impl Soundtrack {
     }
 
     /// Advances by one step of 200 samples with its sound commands.
+    ///
+    /// # Errors
+    /// The file cannot be written; the reason.
     pub fn step(&mut self, sounds: &[SoundCommand]) -> Result<(), String> {
         if self.sounds + sounds.len() > MAX_COMMANDS {
             self.render()?;
@@ -105,6 +108,9 @@ impl Soundtrack {
     }
 
     /// Completes the file and returns the levels.
+    ///
+    /// # Errors
+    /// The file cannot be written or renamed; the reason.
     pub fn finish(mut self) -> Result<Levels, String> {
         self.render()?;
         // The limiter's look-ahead is as long as the part dropped at the start.

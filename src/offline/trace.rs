@@ -25,7 +25,10 @@ pub struct TraceWriter {
 }
 
 impl TraceWriter {
-    /// Creates a trace of the exhibit at `fps` frames per second.
+    /// Creates a trace at `path` of the exhibit's bodies, at `fps` frames per second of simulated time.
+    ///
+    /// # Errors
+    /// The file cannot be created.
     pub fn create(path: &Path, exhibit: &Exhibit, fps: u32) -> io::Result<Self> {
         let mut file = AtomicFile::create(path)?;
         writeln!(file, "t,body,x,y,z,qw,qx,qy,qz")?;
@@ -34,11 +37,17 @@ impl TraceWriter {
     }
 
     /// Adds the frames that are due. Snapshots come in order, each step once, from the start.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn push(&mut self, snapshot: &Snapshot) -> io::Result<()> {
         self.push_poses(snapshot.step, || snapshot.poses.clone())
     }
 
     /// As [`Self::push`], directly from the simulation.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn push_simulation(&mut self, simulation: &Simulation) -> io::Result<()> {
         self.push_poses(simulation.steps(), || simulation.bodies().iter().map(|body| body.pose()).collect())
     }
@@ -56,6 +65,9 @@ impl TraceWriter {
     }
 
     /// Completes the file.
+    ///
+    /// # Errors
+    /// The file cannot be written or renamed.
     pub fn finish(self) -> io::Result<()> {
         self.file.finish()
     }

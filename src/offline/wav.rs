@@ -127,6 +127,9 @@ pub fn read(path: impl AsRef<Path>) -> Result<Recording, WavError> {
 }
 
 /// Writes interleaved samples (full scale ±1) as 32-bit float, atomically.
+///
+/// # Errors
+/// The file cannot be written.
 pub fn write_float(path: impl AsRef<Path>, channels: u16, sample_rate: u32, samples: &[f32]) -> Result<(), WavError> {
     let path = path.as_ref();
     let fail = |error: std::io::Error| WavError::Write(error.to_string());

@@ -11,7 +11,8 @@ use glam::Vec3;
 use super::occlusion::RayCaster;
 use super::scene::Scene;
 
-/// Size below which a piece is small, as a fraction of the scene's radius.
+/// Size below which a piece is small, as a fraction of the scene's radius: chosen between furniture and walls of the
+/// shipped scenes.
 const SMALL: f32 = 0.35;
 /// Fraction of all vertices that a large piece must shade to count: floors extend a little under walls, which is
 /// invisible.

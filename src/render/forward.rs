@@ -174,7 +174,7 @@ impl Renderer {
         write(&self.shared.dust_buffer, bytemuck::cast_slice(&self.dust));
     }
 
-    /// Creates the targets anew where the size has changed.
+    /// Replaces the targets where the size has changed.
     fn resize_targets(&mut self, gpu: &Gpu, size: (u32, u32)) {
         let plan = self.plan((size.0.max(1), size.1.max(1)));
         if self.targets.as_ref().is_some_and(|targets| targets.size == plan.size) {

@@ -9,7 +9,8 @@ use super::shadows::{ReceivingPlane, ShadowMapCamera};
 use super::{FrameInput, Lighting, ShadowQuality, Tonemap};
 use soffio_exhibit::View;
 
-/// Taps of the blocker search of the shadow map, by shadow quality; its filter has three times as many.
+/// Taps of the blocker search of the shadow map, by shadow quality: chosen by eye against noise in penumbrae. Its
+/// filter has three times as many.
 const SHADOW_TAPS: [f32; 2] = [24.0, 32.0];
 
 /// A disc lamp.

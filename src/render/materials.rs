@@ -38,7 +38,7 @@ struct MaterialUniform {
     uv: [[f32; 4]; 2 * PLACES],
 }
 
-/// Textures with a transform of their own.
+/// Number of textures with a transform of their own: five of the core material and nine of its extensions.
 const PLACES: usize = 5 + 9;
 
 /// Bind groups of all materials of a model, and last of the default one.

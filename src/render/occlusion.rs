@@ -19,17 +19,17 @@ use super::scene::Scene;
 use super::shadows::ReceivingPlane;
 use soffio_exhibit::Exhibit;
 
-/// Rays of each vertex.
+/// Rays of each vertex: steps of 5 %, smoothed by interpolation over the triangles.
 const CORNER_RAYS: u32 = 20;
-/// Most rays of all vertices together; beyond it each has fewer.
+/// Most rays of all vertices together; beyond it each has fewer. It bounds the time of a load.
 const MAX_RAYS: usize = 1_500_000;
-/// Fewest rays of a vertex; with fewer the vertices stay unoccluded.
+/// Fewest rays of a vertex; with fewer the vertices stay unoccluded, as steps of a sixth would show.
 const MIN_RAYS: u32 = 6;
-/// Rays of each texel of a plane.
+/// Rays of each texel of a plane: more than of a vertex, since a plane is smooth and noise shows.
 const TEXEL_RAYS: u32 = 32;
-/// Texels along each side of a plane's map.
+/// Texels along each side of a plane's map. Occlusion of a plane has no sharper edges; chosen by eye.
 pub(super) const PLANE_MAP: u32 = 80;
-/// Occlusion radius of vertices, in radii of the exhibit.
+/// Occlusion radius of vertices, in radii of the exhibit: chosen by eye, so that joints darken and neighbours do not.
 const OCCLUSION_RADIUS: f32 = 0.22;
 
 /// Ray queries on the scene's opaque triangles, by a bounding volume hierarchy.

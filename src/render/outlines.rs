@@ -18,13 +18,15 @@ use glam::{Mat4, Vec2, Vec3, Vec4};
 use super::globals::Globals;
 use super::vertex::Vertex;
 
-/// Texels along a row of the texture with the silhouettes.
+/// Texels along a row of the texture with the silhouettes: a whole number of 256-byte rows, which copies to textures
+/// need.
 pub(super) const CONTOUR_ROW: u32 = 256;
 /// Most edges of an outlined plate's mesh; each of its pixels tests all edges of its silhouette.
 const MAX_EDGES: usize = 900;
-/// Smallest cosine between a plate's normal and those of its caps.
+/// Smallest cosine between a plate's normal and those of its caps: 8°, so that slightly bent sheet counts.
 const CAP_COSINE: f32 = 0.99;
-/// Smallest fraction of a plate's surface that its caps make up.
+/// Smallest fraction of a plate's surface that its caps make up: a square plate is then thinner than a sixth of its
+/// side.
 const CAP_SHARE: f32 = 0.75;
 
 /// A plate's mesh with merged vertices, in the frame of its body.

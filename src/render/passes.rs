@@ -48,7 +48,7 @@ pub struct PassPlan {
     pub planes: Option<[(u32, u32); 2]>,
     /// Draw calls on each of them.
     pub plane_draws: [u32; 2],
-    /// Texels along a side of the shadow map.
+    /// Texels along each side of the square shadow map of the key light.
     pub map: u32,
     /// Draw calls of the meshes in the picture.
     pub mesh_draws: u32,

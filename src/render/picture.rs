@@ -39,6 +39,9 @@ impl ImageRenderer {
     }
 
     /// Prepares an exhibit on this device, as [`Self::new`].
+    ///
+    /// # Errors
+    /// The exhibit cannot be drawn on this device.
     pub fn on(gpu: Gpu, exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Result<Self, RenderError> {
         let mut options = Options::for_gpu(&gpu, FORMAT);
         adjust(&mut options);

@@ -48,11 +48,11 @@ pub(super) struct Pipelines {
     pub gallery: wgpu::RenderPipeline,
     /// Backdrop of a picture without a gallery.
     pub backdrop: wgpu::RenderPipeline,
-    /// Wires.
+    /// Wires in the picture.
     pub wires: wgpu::RenderPipeline,
     /// Dust particles.
     pub dust: wgpu::RenderPipeline,
-    /// One for the wall and one for the floor.
+    /// Shadows of meshes on wall and floor.
     pub plane_meshes: [wgpu::RenderPipeline; 2],
     /// Shadows of wires on wall and floor.
     pub plane_wires: [wgpu::RenderPipeline; 2],
@@ -66,6 +66,7 @@ pub(super) struct Pipelines {
     pub upscale: wgpu::RenderPipeline,
 }
 
+/// Layout of a mesh vertex, as [`Vertex`].
 const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
@@ -74,6 +75,7 @@ const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
         7 => Uint32
     ],
 };
+/// Layout of a piece of wire, as [`Segment`].
 const SEGMENT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Segment>() as u64,
     step_mode: wgpu::VertexStepMode::Instance,
@@ -81,6 +83,7 @@ const SEGMENT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
         0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4
     ],
 };
+/// Layout of a piece of a plate's edge, as [`Ribbon`].
 const RIBBON: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Ribbon>() as u64,
     step_mode: wgpu::VertexStepMode::Instance,
@@ -89,11 +92,13 @@ const RIBBON: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
         6 => Uint32, 7 => Uint32
     ],
 };
+/// Layout of an instance of a shadow, as [`ShadowInstance`].
 const SHADOW_INSTANCE_VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<ShadowInstance>() as u64,
     step_mode: wgpu::VertexStepMode::Instance,
     attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Uint32x4],
 };
+/// Layout of a dust particle: four floats, position and brightness.
 const DUST_VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: 16,
     step_mode: wgpu::VertexStepMode::Instance,

@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use soffio_exhibit::model::{Light, LightKind};
 
-/// Most punctual lights of a model; further ones stay dark.
+/// Most punctual lights of a model, the length of the array in `common.wgsl`; further ones stay dark.
 pub(super) const MAX_PUNCTUAL: usize = 8;
 
 /// A punctual light in the frame of its body.

@@ -92,6 +92,7 @@ mod tests {
 
     #[test]
     fn a_cube_made_finer_has_no_gap_and_no_long_edge() {
+        /// Longest edge of the test's mesh, m.
         const LONGEST: f32 = 0.3;
         let (_, mut scene) = of_primitive(hollow_cube(), Vec::new());
         let before = scene.vertices.len();

@@ -18,7 +18,7 @@ pub struct Scenario {
     pub model: Option<PathBuf>,
     /// Position of the camera, world, m.
     pub eye: Option<[f64; 3]>,
-    /// Point looked at, m.
+    /// Point looked at, world, m.
     pub target: Option<[f64; 3]>,
     /// Vertical field of view, degrees.
     pub fovy_deg: Option<f64>,
@@ -26,17 +26,17 @@ pub struct Scenario {
     pub width: Option<u32>,
     /// Height of the picture, pixels.
     pub height: Option<u32>,
-    /// Equirectangular Radiance image, relative to the file.
+    /// Equirectangular Radiance image (.hdr) that lights the scene; a path relative to the file.
     pub env: Option<PathBuf>,
-    /// Multiplies the image's radiance.
+    /// Factor of the image's radiance, 1 for the image as it is.
     pub env_intensity: Option<f32>,
     /// Background colour, linear RGB.
     pub background_linear: Option<[f32; 3]>,
-    /// A rectangular area light.
+    /// A rectangular area light; `None`: without one.
     pub area_light: Option<Rectangle>,
-    /// Tone curve.
+    /// Tone curve from linear radiance to the display.
     pub tonemap: Option<Tonemap>,
-    /// Linear exposure multiplier.
+    /// Factor of all radiances before the tone curve, above 0.
     pub exposure: Option<f32>,
 }
 

@@ -84,6 +84,9 @@ pub(super) struct Scene {
 
 impl Scene {
     /// Collects the meshes and lights of an exhibit.
+    ///
+    /// # Errors
+    /// The exhibit has more than the shaders can hold, such as bodies; the error says what.
     pub fn new(exhibit: &Exhibit) -> Result<Self, RenderError> {
         if exhibit.bodies.len() >= MAX_FRAMES {
             return Err(RenderError::TooManyBodies { count: exhibit.bodies.len(), limit: MAX_FRAMES - 1 });
@@ -208,6 +211,7 @@ impl Scene {
 }
 
 impl PipelineKey {
+    /// The plainest material: opaque, one-sided, without layers, details or outlines.
     const PLAIN: Self =
         Self { kind: SurfaceKind::Opaque, double_sided: false, layers: false, details: false, outlined: false };
 

@@ -16,7 +16,7 @@ use super::textures;
 use super::{Gpu, Options, details};
 use soffio_exhibit::model::Sampler;
 
-/// Most dust particles drawn.
+/// Most dust particles drawn: 64 KiB of vertices, a bound on the work of a frame.
 pub(super) const MAX_DUST: usize = 4096;
 
 /// Resources that all exhibits share on one device.

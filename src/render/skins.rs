@@ -10,7 +10,7 @@
 //! in the frame F_b of one of these bodies, so that the mesh is one more batch of the scene. Normals use the cofactors
 //! of A. Where key frames change scales, F₀ and J₀ are those of the time; a mesh without a skin whose node has an
 //! animated scale follows that node alone. Where they change the weights of morph targets, p₀ is p + Σ ωₜ dₜ, and
-//! likewise for normals and tangents. All passes read the same vertices, which are written anew where something has
+//! likewise for normals and tangents. All passes read the same vertices, which are written again where something has
 //! moved. A few thousand vertices cost a fraction of a millisecond. The memory is allocated before the first frame.
 
 use glam::{Mat3, Mat4, Vec3, Vec4};

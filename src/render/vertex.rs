@@ -9,7 +9,7 @@ use glam::Vec3;
 pub(super) struct Vertex {
     /// Position, m.
     pub position: Vec3,
-    /// Unit normal.
+    /// Normal, unit.
     pub normal: Vec3,
     /// Unit tangent, and the sign of the bitangent.
     pub tangent: [f32; 4],

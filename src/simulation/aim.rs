@@ -194,7 +194,7 @@ impl AimRay {
 pub struct Aim {
     /// Centre of the lips, world, m.
     pub mouth: DVec3,
-    /// Unit.
+    /// Direction, unit.
     pub direction: DVec3,
     /// Point of the axis nearest to the aim point, world, m.
     pub target: DVec3,
@@ -287,9 +287,9 @@ impl Aim {
 /// A ray from the camera through a point of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraRay {
-    /// World, m.
+    /// Start of the ray, world, m.
     pub origin: DVec3,
-    /// Unit.
+    /// Direction of the ray, unit.
     pub direction: DVec3,
 }
 

@@ -19,6 +19,7 @@ const IDLE_SELECTIONS: u64 = 8;
 /// The aim of the breath and the targets of the aim assist.
 #[derive(Clone)]
 pub(crate) struct AimAssist {
+    /// Where the breath is aimed.
     pub aim: Aim,
     /// Pointer of the last step, picture coordinates.
     pointer: [f64; 2],
@@ -45,10 +46,15 @@ impl Candidate {
 
 /// Inputs of the aim in one step.
 pub(crate) struct AimContext<'a> {
+    /// The exhibit.
     pub exhibit: &'a Exhibit,
+    /// Constants of the run.
     pub settings: &'a Settings,
+    /// The camera of the picture in which the pointer lies.
     pub camera: &'a Camera,
+    /// State of the breath at the lips.
     pub breath: &'a BreathState,
+    /// Present state of all bodies.
     pub bodies: &'a [RigidBody],
     /// Steps done.
     pub step: u64,

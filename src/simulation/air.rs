@@ -14,8 +14,11 @@ use soffio_wind::jet_front::JetFront;
 /// The breath with its aim and the settings that shape it.
 #[derive(Clone, Copy)]
 pub(crate) struct AimedBreath<'a> {
+    /// The exhibit.
     pub exhibit: &'a Exhibit,
+    /// Constants of the run.
     pub settings: &'a Settings,
+    /// Where the breath is aimed.
     pub aim: &'a Aim,
     /// At the lips, m/s.
     pub speed: f64,
@@ -49,6 +52,7 @@ impl AimedBreath<'_> {
 
 /// When and how strongly the breath of a step acts.
 pub(crate) struct BreathTiming<'a> {
+    /// Compensation of the detector's latency.
     pub onset: &'a OnsetCompensation,
     /// Since the reset, s.
     pub time: f64,
@@ -57,6 +61,7 @@ pub(crate) struct BreathTiming<'a> {
 /// The air about the exhibit.
 #[derive(Clone)]
 pub(crate) struct Air {
+    /// All winds and the surfaces that they act on.
     pub wind: WindField,
     /// Breath in flight.
     pub jet_front: JetFront,

@@ -86,8 +86,11 @@ const NONE: u32 = u32::MAX;
 /// Bodies and listener at one moment.
 #[derive(Clone, Copy)]
 pub struct SoundScene<'a> {
+    /// The exhibit.
     pub exhibit: &'a Exhibit,
+    /// Present state of all bodies.
     pub bodies: &'a [RigidBody],
+    /// Position of the listener.
     pub listener: &'a AudioListener,
 }
 

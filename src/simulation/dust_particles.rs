@@ -53,9 +53,9 @@ const LIT_SPEED: f64 = 0.8;
 /// A dust particle as it is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DustParticle {
-    /// World, m.
+    /// Position, world, m.
     pub position: [f32; 3],
-    /// World, m/s.
+    /// Velocity, world, m/s.
     pub velocity: [f32; 3],
     /// 0 invisible … 1 bright.
     pub brightness: f32,

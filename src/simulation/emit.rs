@@ -15,11 +15,15 @@ pub(crate) const LIST_CAPACITY: usize = 256;
 
 /// Everything in a step that events and sounds follow from.
 pub(crate) struct StepResult<'a> {
+    /// The dynamics after the step.
     pub dynamics: &'a Dynamics,
+    /// Impacts of the step.
     pub impacts: &'a [Impact],
     /// The first body with invalid numbers.
     pub fault: Option<usize>,
+    /// The air after the step.
     pub air: &'a Air,
+    /// The breath of the step.
     pub breath: AimedBreath<'a>,
 }
 
@@ -28,7 +32,9 @@ pub(crate) struct StepResult<'a> {
 pub(crate) struct Emitter {
     contact_sound: ContactSound,
     wire_sounds: WireSounds,
+    /// Events of the step.
     pub events: Vec<Event>,
+    /// Sound commands of the step.
     pub sounds: Vec<SoundCommand>,
     /// Impacts so far.
     pub impacts: u64,

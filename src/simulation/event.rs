@@ -99,11 +99,11 @@ pub struct Event {
     pub kind: EventKind,
     /// Bodies by index; `None` is the world.
     pub bodies: [Option<usize>; 2],
-    /// World, m.
+    /// World point of the event, m.
     pub point: DVec3,
     /// Unit, from the second body to the first.
     pub normal: DVec3,
-    /// N s.
+    /// Impulse of the impact, N s.
     pub impulse: f64,
     /// Approach speed, m/s.
     pub speed: f64,

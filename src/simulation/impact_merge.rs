@@ -23,8 +23,9 @@ const _: () = assert!(WINDOW > SAMPLE_RATE as u64 / STEPS_PER_SECOND);
 /// An impact as it will sound.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ImpactPulse {
+    /// Number of the sample at which it sounds.
     pub sample: u64,
-    /// J, N s.
+    /// Impulse J, N s.
     pub impulse: f64,
     /// Approach speed, m/s.
     pub speed: f64,

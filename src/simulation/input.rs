@@ -108,7 +108,7 @@ pub struct Microphone<'a> {
     pub samples: &'a [f32],
     /// A second capsule beside it (same rate and length), where there is one.
     pub second: Option<&'a [f32]>,
-    /// Hz.
+    /// Sample rate, Hz.
     pub sample_rate: u32,
     /// Output signal of the same time (mono, same rate and length); empty if the microphone does not pick it up.
     pub reference: &'a [f32],

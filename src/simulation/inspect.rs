@@ -45,9 +45,9 @@ pub struct JointState {
 /// State of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyState {
-    /// m/s.
+    /// Speed of its centre of mass, m/s.
     pub speed: f64,
-    /// rad/s.
+    /// Angular speed, rad/s.
     pub spin: f64,
     /// Height of its centre of mass, world, m.
     pub height: f64,
@@ -58,7 +58,7 @@ pub struct BodyState {
 pub struct WindSample {
     /// Index of its surface among the exhibit's.
     pub surface: usize,
-    /// World, m.
+    /// Position, world, m.
     pub point: DVec3,
     /// Whether it lies in the breath as it is aimed now, and is visible from the lips.
     pub in_breath: bool,
@@ -67,7 +67,7 @@ pub struct WindSample {
 }
 
 impl Simulation {
-    /// Inspects the present moment. Changes nothing of the run.
+    /// Present values for the staff panel, as far as `scope` asks for them. The run itself is not changed.
     pub fn inspect(&mut self, scope: InspectionScope) -> Inspection {
         let empty = Inspection { step: self.clock.step, ..Inspection::default() };
         match scope {

@@ -25,13 +25,18 @@ struct RunningAssembly {
 /// All that moves the bodies of an exhibit.
 #[derive(Clone)]
 pub(crate) struct Motion {
+    /// Constrained dynamics.
     pub dynamics: Dynamics,
+    /// Procedural motion.
     pub procedural: Procedural,
+    /// Parts that pointers hold.
     pub pointer_grabs: PointerGrabs,
+    /// Which of the motions is in use.
     pub mode: MotionMode,
     assembly: Option<RunningAssembly>,
     /// `Some` until the clock, if there is one, shows the time.
     pub clock_setting: Option<ClockSetting>,
+    /// Damping that calms the exhibit after a breath.
     pub idle_damping: IdleDamping,
     /// From wind, idle damping and grabs in the present step, N and N m about each centre of mass.
     pub wrenches: Vec<Vec6>,
@@ -81,7 +86,7 @@ impl Motion {
         self.assembly.as_ref().is_some_and(|running| running.steps_left == 0)
     }
 
-    /// Greatest distance of a body from its final position during assembly, m.
+    /// Present greatest distance of a body from its final position, m; `None` outside an assembly.
     pub fn assembly_distance(&self) -> Option<f64> {
         self.assembly.as_ref().map(|running| running.assembly.max_distance(&self.dynamics.bodies))
     }

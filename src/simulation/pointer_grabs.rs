@@ -88,10 +88,13 @@ struct Grab {
 
 /// What pointers may pick, as the camera sees it.
 pub struct PickScene<'a> {
+    /// The camera.
     pub view: &'a View,
     /// Width over height of the picture.
     pub aspect: f64,
+    /// The exhibit.
     pub exhibit: &'a Exhibit,
+    /// Present state of all bodies.
     pub bodies: &'a [RigidBody],
     /// Of each body; kinematic bodies cannot be grabbed.
     pub is_kinematic: &'a [bool],

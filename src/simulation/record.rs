@@ -55,9 +55,9 @@ struct Head {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Begin {
-    /// Id of the exhibit.
+    /// Id of the exhibit: the name of its folder.
     pub exhibit: String,
-    /// Constants of the run.
+    /// Constants of the run, which a replay needs.
     pub settings: Settings,
 }
 
@@ -125,7 +125,7 @@ impl Recorder {
         text(&RecordLine::Record(Head { version: VERSION, program: env!("CARGO_PKG_VERSION").into() }))
     }
 
-    /// The first line of a section. The state of the inputs starts anew.
+    /// The first line of a section. The state of the inputs starts again from zero.
     pub fn begin(&mut self, exhibit: &str, settings: Settings) -> String {
         self.last = InputState::default();
         text(&RecordLine::Begin(Begin { exhibit: exhibit.into(), settings }))

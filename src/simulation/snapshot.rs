@@ -34,11 +34,11 @@ pub struct BreathView {
 /// Ring that shows the width of the breath at its target, or the first grab.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AimRing {
-    /// World, m.
+    /// Centre, world, m.
     pub center: DVec3,
-    /// Unit, downstream.
+    /// Axis, unit, downstream.
     pub axis: DVec3,
-    /// m.
+    /// Radius, m.
     pub radius: f64,
 }
 

@@ -15,7 +15,7 @@ const PAN_SPREAD: f64 = 2.0;
 pub struct SoundPosition {
     /// −1 left … 1 right.
     pub pan: f32,
-    /// m.
+    /// Distance of the listener, m.
     pub distance: f32,
 }
 

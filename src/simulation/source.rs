@@ -122,7 +122,7 @@ impl BreathSource {
         (estimate.speed.max(self.hold_speed).max(self.controller_speed).max(commanded), estimate)
     }
 
-    /// Feeds the microphone to the detector. Without a microphone the detector is dropped: it adapts anew later.
+    /// Feeds the microphone to the detector. Without a microphone the detector is dropped: a new one adapts later.
     fn detect(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
         let Some(microphone) = microphone else {
             self.detector = None;
@@ -144,6 +144,7 @@ impl BreathSource {
 #[derive(Clone)]
 pub(crate) struct BreathState {
     source: BreathSource,
+    /// Compensation of the detector's latency.
     pub onset: OnsetCompensation,
     /// Joint speed of all sources, m/s; exactly 0 without a breath.
     pub speed: f64,

@@ -86,8 +86,8 @@ impl Simulation {
     /// A step does not allocate, with three exceptions:
     ///
     /// - The exhibit restarts: at [`Command::Reset`] and [`Command::Assemble`], at the end of the exhibit's duration, and at the
-    ///   end of an assembly. The dynamics are then built anew.
-    /// - A microphone appears after a step without one, or its sample rate changes: the breath detector is built anew.
+    ///   end of an assembly. The dynamics are then built again.
+    /// - A microphone appears after a step without one, or its sample rate changes: the breath detector is built again.
     /// - More events, sounds or impacts happen than in any step of the run before: their lists grow.
     pub fn step(&mut self, input: &StepInput) {
         self.emitter.clear();

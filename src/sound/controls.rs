@@ -5,15 +5,16 @@ use super::timbre::{Inputs, Player};
 use super::{Slide, SoundCommand, WindExposure, WindSound};
 use soffio_math::{PI, exp};
 
-/// Time constant of the smoothed wind, s.
+/// Time constant of the smoothed wind, s: several simulation steps, so that none is heard, and far below the time of a
+/// gust.
 const WIND_GLIDE: f64 = 0.05;
 /// Time constant of a smoothed slide, s: one simulation step.
 const SLIDE_GLIDE: f64 = 0.004;
-/// A fading slide ends below this force, N.
+/// Force below which a fading slide ends, N: 100 dB below 1 N, inaudible.
 const LEAST_FORCE: f64 = 1e-5;
-/// A fading wind ends below this speed, m/s.
+/// Speed below which a fading wind ends, m/s: inaudible, as sound grows with a power of the speed.
 const LEAST_WIND: f64 = 1e-3;
-/// Least distance of a listener, m.
+/// Least distance of a listener, m: bounds the gain 1/r to 20 dB above that at 1 m.
 pub(super) const MIN_DISTANCE: f32 = 0.1;
 
 /// Wind and slides of one exhibit.
@@ -31,13 +32,15 @@ pub(super) struct SustainedControls {
 
 /// Control signals of one instrument.
 pub(super) struct ControlValues {
+    /// Smoothed inputs of the voice.
     pub inputs: Inputs,
     /// −1 left … 1 right.
     pub pan: f64,
     /// From the listener, m.
     pub distance: f32,
-    /// Whether nothing moved before this grid point, and at it.
+    /// Did nothing move before this grid point?
     pub still_before: bool,
+    /// Does nothing move at this grid point?
     pub still: bool,
 }
 

@@ -20,15 +20,16 @@
 use super::{SoundBody, SoundMaterial};
 use soffio_math::{PI, pow};
 
-/// Density of air times the speed of sound, Pa s/m (20 °C).
+/// Characteristic impedance of air, ρ c, Pa s/m (20 °C).
 pub(super) const IMPEDANCE: f64 = 413.0;
 /// Speed of sound, m/s (20 °C).
 pub(super) const SOUND_SPEED: f64 = 343.0;
 /// Pressure that is digital full scale, Pa. Chosen so that a plate of a few grams hit at 0.3 m/s is clearly heard at
 /// arm's length without leaning on the limiter.
 pub(super) const FULL_SCALE_PRESSURE: f64 = 1.0;
-/// Contact times outside of these two have no meaning here, s.
+/// Shortest contact that Hertz's law is trusted with, s: a tenth of a period of 5 kHz; shorter ones sound alike.
 const SHORTEST_CONTACT: f64 = 2e-5;
+/// Longest contact that Hertz's law is trusted with, s: longer ones are pushes, without a sound.
 pub(super) const LONGEST_CONTACT: f64 = 2e-2;
 
 /// Surfaces in contact.
@@ -47,7 +48,7 @@ impl Contact {
         Self { radius, modulus: e / (2.0 * (1.0 - material.poisson * material.poisson)) }
     }
 
-    /// Hertz contact time τ, s.
+    /// Hertz contact time τ, s, of an impact with an effective mass, kg, at an approach speed, m/s: τ = 2.87 (m²/(R E*² v))^⅕.
     pub fn time(&self, mass: f64, speed: f64) -> f64 {
         let stiff = self.radius * self.modulus * self.modulus * speed.max(1e-4);
         (2.87 * pow(mass.max(1e-6) * mass.max(1e-6) / stiff, 0.2)).clamp(SHORTEST_CONTACT, LONGEST_CONTACT)
@@ -70,6 +71,7 @@ pub(super) struct Radiator {
 }
 
 impl Radiator {
+    /// The radiator that a body of this material is.
     pub fn new(body: &SoundBody, material: &SoundMaterial) -> Self {
         let h = body.thickness;
         let rigidity = material.youngs_modulus * h * h * h / (12.0 * (1.0 - material.poisson * material.poisson));

@@ -10,7 +10,7 @@
 
 use soffio_math::noise::{hash, perlin1};
 
-/// Strongest gust, of the mean: a product has rare peaks far beyond, which would only feed the limiter.
+/// Strongest gust over the mean. A product has rare peaks far beyond, which would only feed the limiter.
 const STRONGEST: f64 = 3.0;
 
 /// Relative strength of the gust at `t` (in units of the slowest octave), 0 … 3, mean about 1.

@@ -12,15 +12,18 @@ use super::{InstrumentSpec, Strike, timbre};
 use soffio_math::noise::Random;
 use soffio_math::{exp, ln};
 
-/// Least mass of a body, kg.
+/// Least mass of a body, kg: a milligram. It keeps contact times and levels finite.
 const MIN_MASS: f64 = 1e-6;
 
 /// A compiled instrument.
 pub(super) struct Instrument {
+    /// Its nodes.
     pub graph: Graph,
     /// What plays it.
     pub player: Player,
+    /// Linear gain.
     pub gain: f64,
+    /// Most voices of impacts at once.
     pub max_voices: usize,
     radiator: Radiator,
     modal: Option<Modal>,
@@ -51,10 +54,15 @@ struct Modal {
 
 impl Instrument {
     /// `shared` is that of the synth.
+    ///
+    /// # Errors
+    /// There is no such preset, or it does not fit the body.
     pub fn compile(spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         Self::from_preset(&Preset::shipped(&spec.timbre)?, spec, shared)
     }
 
+    /// # Errors
+    /// The preset does not fit the body.
     pub fn from_preset(preset: &Preset, spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         let radiator = Radiator::new(&spec.body, &spec.material);
         Ok(Self {
@@ -143,6 +151,9 @@ impl Instrument {
 }
 
 /// The partials of a timbre on a body, in ascending order; none where nothing rings.
+///
+/// # Errors
+/// The preset does not fit the body.
 pub fn partials(preset: &Preset, spec: &InstrumentSpec) -> Result<Vec<Mode>, TimbreError> {
     let modes_and_outline = preset
         .modal()

@@ -13,11 +13,11 @@
 
 use soffio_math::{PI, amplitude_to_db, sincos, sqrt};
 
-/// Poles of high-passes, Hz.
+/// Poles of the A-weighting's high-passes, Hz (IEC 61672-1, annex E).
 const HIGH_PASSES: [f64; 4] = [20.598_997, 20.598_997, 107.652_65, 737.862_23];
-/// Poles of low-passes, Hz.
+/// Poles of the A-weighting's low-passes, Hz (IEC 61672-1, annex E).
 const LOW_PASSES: [f64; 2] = [12_194.217; 2];
-/// Sections in all.
+/// Number of first-order sections in all.
 const SECTION_COUNT: usize = HIGH_PASSES.len() + LOW_PASSES.len();
 
 /// One section: y = b (x ± x₁) − a y₁.
@@ -99,7 +99,7 @@ pub struct Exposure {
     day: u64,
 }
 
-/// Time constant of the short mean, s.
+/// Time constant of the short mean, s: the minute in which staff judge a level.
 const MINUTE: f64 = 60.0;
 
 impl Exposure {

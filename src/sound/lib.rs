@@ -34,6 +34,7 @@
 //!
 //! `cargo run -p soffio-sound --example chime` rings a chime tube and prints its peak and its decay.
 
+mod bounds;
 mod controls;
 mod excitation;
 mod graph;
@@ -122,7 +123,7 @@ pub struct Strike {
     pub sample: u64,
     /// Index into the exhibit's instruments.
     pub instrument: u16,
-    /// N s.
+    /// Impulse of the hit, N s.
     pub impulse: f32,
     /// Approach speed, m/s.
     pub speed: f32,
@@ -168,7 +169,7 @@ pub struct Slide {
     pub distance: f32,
 }
 
-/// The wind that sounds.
+/// The wind at the sculpture as a sound command: the instruments that sound in wind follow it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WindSound {
     /// When.
@@ -201,7 +202,7 @@ pub struct SoundMaterial {
     pub youngs_modulus: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: f64,
     /// Loss factor η of the installed body: T60 = 2.2/(η f).
     pub loss_factor: f64,
@@ -216,7 +217,7 @@ pub struct SoundBody {
     pub thickness: f64,
     /// Area of one face, m².
     pub area: f64,
-    /// kg.
+    /// Mass, kg.
     pub mass: f64,
 }
 

@@ -16,17 +16,20 @@ use fearless_simd::{Level, Simd, dispatch, f64x2, f64x4};
 
 use soffio_math::amplitude_to_db;
 
-/// b₀, b₁, b₂, a₁, a₂ of the two filters, at [`LoudnessMeter::SAMPLE_RATE`].
+/// b₀, b₁, b₂, a₁, a₂ of the shelf for the head, at [`LoudnessMeter::SAMPLE_RATE`] (ITU-R BS.1770-4, table 1).
 const HEAD_SHELF: [f64; 5] =
     [1.535_124_859_586_97, -2.691_696_189_406_38, 1.198_392_810_852_85, -1.690_659_293_182_41, 0.732_480_774_215_85];
+/// b₀, b₁, b₂, a₁, a₂ of the high-pass, at [`LoudnessMeter::SAMPLE_RATE`] (ITU-R BS.1770-4, table 2).
 const HIGH_PASS: [f64; 5] = [1.0, -2.0, 1.0, -1.990_047_454_833_98, 0.990_072_250_366_21];
-/// Frames of an interval, and intervals of a gating block.
+/// Frames of an interval, 0.1 s (BS.1770-4: gating blocks overlap by 75 %).
 const INTERVAL: usize = LoudnessMeter::SAMPLE_RATE as usize / 10;
+/// Intervals of a gating block, 0.4 s (BS.1770-4).
 const BLOCK: usize = 4;
-/// Loudness of a mean square of 1, LUFS.
+/// Loudness of a mean square of 1, LUFS (BS.1770-4): cancels the gain of the filters at 997 Hz.
 const OFFSET: f64 = -0.691;
-/// Absolute gate, LUFS, and relative gate, LU, of BS.1770.
+/// Absolute gate, LUFS (BS.1770-4).
 const ABSOLUTE_GATE: f64 = -70.0;
+/// Relative gate below the mean of the blocks above the absolute gate, LU (BS.1770-4).
 const RELATIVE_GATE: f64 = 10.0;
 
 /// A number of the first filter's channels, then of the second's.

@@ -11,9 +11,10 @@ use super::limiter::Limiter;
 use super::night_mode::{NightMode, Transition};
 use super::reverb::{Reverb, ReverbSpec};
 
-/// Frames of reverb computed at once.
+/// Frames of reverb computed at once: buffers of 2 KiB on the stack.
 const CHUNK: usize = 256;
 
+/// The master bus of a synth.
 pub(super) struct Master {
     sample_rate: f64,
     reverb: Option<Box<Reverb>>,
@@ -23,6 +24,7 @@ pub(super) struct Master {
 }
 
 impl Master {
+    /// A master bus at rest for this sample rate, Hz, without reverb and night mode.
     pub fn new(sample_rate: f64) -> Self {
         Self {
             sample_rate,
@@ -33,7 +35,7 @@ impl Master {
         }
     }
 
-    /// Latency, frames.
+    /// Latency from input to output, frames.
     pub fn latency(&self) -> usize {
         self.limiter.latency()
     }
@@ -43,7 +45,7 @@ impl Master {
         self.reverb = spec.and_then(|spec| Reverb::new(spec, self.sample_rate)).map(Box::new);
     }
 
-    /// Real-time.
+    /// Turns night mode on or off: with a fade once frames were processed, at once before. Real-time.
     pub fn set_night(&mut self, night_mode: bool) {
         let transition = if self.started { Transition::Fade } else { Transition::Immediate };
         self.night_mode.set(night_mode, transition);

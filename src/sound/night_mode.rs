@@ -12,21 +12,22 @@
 
 use soffio_math::{PI, amplitude_to_db, db_to_amplitude, exp, sincos};
 
-/// Level of soft sounds, dB.
+/// Gain of soft sounds, dB. Chosen by ear: about half as loud.
 pub const LEVEL: f64 = -8.0;
-/// Threshold of the compressor, dB of full scale (root mean square).
+/// Threshold of the compressor, dB of full scale (root mean square). Chosen by ear: below a light hit.
 pub const THRESHOLD: f64 = -36.0;
-/// Compression ratio above the threshold.
+/// Compression ratio above the threshold: 3 dB more in, 1 dB more out. Chosen by ear.
 pub const RATIO: f64 = 3.0;
-/// Corner of the shelf, Hz, above which the level changes by [`SHELF_DB`].
+/// Corner of the shelf, Hz, above which the level changes by [`SHELF_DB`]: high sounds draw attention in a quiet
+/// building.
 pub const SHELF_CORNER: f64 = 2500.0;
-/// Gain of the shelf, dB.
+/// Gain of the shelf, dB. Chosen by ear: bells stay bells.
 pub const SHELF_DB: f64 = -9.0;
-/// Duration of a transition, s.
+/// Duration of a transition, s: slow enough not to be noticed.
 pub const GLIDE: f64 = 2.0;
-/// Attack and release of the level, s.
+/// Attack and release time constants of the level, s: an onset is caught within 5 ms, and a decay is not pumped up.
 const ATTACK_RELEASE: (f64, f64) = (0.005, 0.15);
-/// Frames from one gain to the next.
+/// Frames from one computed gain to the next: 0.7 ms at 48 kHz, far below the attack.
 const STRIDE: u32 = 32;
 
 /// How night mode is turned on or off.
@@ -55,6 +56,7 @@ pub(super) struct NightMode {
 }
 
 impl NightMode {
+    /// Night mode that is off, for this sample rate, Hz.
     pub fn new(sample_rate: f64) -> Self {
         let rise = db_to_amplitude(SHELF_DB);
         let (s, c) = sincos(PI * SHELF_CORNER / sample_rate);

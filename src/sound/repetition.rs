@@ -13,13 +13,13 @@
 
 use soffio_math::{exp, ln};
 
-/// Ratio of similar impulses, 3 dB.
+/// Ratio of impulses that count as similar: 3 dB, a difference that one just notices between two ticks.
 const SIMILAR_RATIO: f64 = 1.41;
-/// Repetitions without attenuation.
+/// Repetitions without attenuation: a minute of a clock that ticks once a second. Chosen by ear.
 const FREE_STRIKES: f64 = 60.0;
-/// Time constant of the count, s.
+/// Time constant of the count, s: two minutes of silence restore the sound.
 const RECOVERY: f64 = 120.0;
-/// Least gain, −12 dB.
+/// Least gain, linear: −12 dB, so that a clock stays audible beside it.
 const LEAST_GAIN: f64 = 0.251_188_643_150_958;
 
 /// Recent impacts of one sounding body.

@@ -4,39 +4,40 @@
 //! add to the look-ahead samples. The force of voices on the body ([`SoundingBody::force`]) sounds one block later, 1.3 ms at
 //! 48 kHz, when it is complete, however the caller cuts its blocks.
 
+use super::bounds::{FAULT_LEVEL, INAUDIBLE};
 use super::excitation::LONGEST_CONTACT;
 use super::graph::{AudioBlock, Bus, CONTROL_PERIOD, OperatorState};
 use super::instrument::{DriveMove, Instrument};
 use super::modal::{BLOCK, Bank};
 use super::timbre::{Inputs, MAX_NODES};
 use super::true_peak::peak;
-use super::voice::FAULT_LEVEL;
 
 const _: () = assert!(BLOCK == CONTROL_PERIOD, "banks are rendered on the control grid");
 
-/// Partials below this at the listener end: −100 dB of full scale.
-const INAUDIBLE: f64 = 1e-5;
-/// Share of the step to the target gains per grid point: 20 ms.
+/// Share of the step to the target gains per grid point: a time constant of 20 ms at 48 kHz.
 const GAIN_GLIDE: f32 = 0.065;
-/// Grid points of silence after which a body is at rest.
+/// Grid points of silence after which a body is at rest: 21 ms at 48 kHz, longer than the longest contact.
 const QUIET_GRID_POINTS: u32 = 16;
-/// Smaller moves of a contact are ignored, in half extents of the body.
+/// Moves of a contact below this are ignored, in half extents of the body: shapes change by less than a per cent.
 const LEAST_MOVE: f64 = 2e-3;
-/// Impacts on one body between two grid points that are executed one by one; more merge at the next grid point.
+/// Impacts on one body between two grid points that are executed one by one; more merge at the next grid point. It
+/// bounds the work of a block.
 const MAX_STRIKES: u32 = 6;
 
 /// Time of the synth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SynthClock {
-    /// s.
+    /// Time since sample 0, s.
     pub time: f64,
-    /// Hz.
+    /// Sample rate, Hz.
     pub sample_rate: f64,
 }
 
 /// The modal part of one instrument.
 pub(super) struct SoundingBody {
+    /// Index of its instrument in the synth.
     pub instrument: usize,
+    /// Its partials.
     pub bank: Bank,
     operators: Box<[OperatorState; MAX_NODES]>,
     inputs: Inputs,
@@ -66,6 +67,7 @@ pub(super) struct SoundingBody {
 }
 
 impl SoundingBody {
+    /// A silent body; `index` is that of its instrument in the synth.
     pub fn new(index: usize, instrument: &Instrument, bank: Bank, sample_rate: f64) -> Self {
         let mut operators = Box::new(std::array::from_fn(|_| OperatorState::new(0)));
         instrument.graph.allocate(&mut operators, sample_rate);
@@ -136,6 +138,7 @@ impl SoundingBody {
         self.target_gains = gains;
         self.inputs = *inputs;
         self.quiet = 0;
+        // Partials below the bound at the listener end.
         self.bank.set_threshold(INAUDIBLE / self.loudest_gain().max(1e-6));
         if !self.sounds {
             self.sounds = true;

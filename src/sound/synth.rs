@@ -29,16 +29,16 @@ use soffio_math::{PI, sincos};
 
 /// Default bound of the ringing partials: two and a half times the heaviest scene.
 pub const MOST_PARTIALS: usize = 16_384;
-/// Most voices of impacts at once. One more steals the quietest.
+/// Most voices of impacts at once; one more steals the quietest. It bounds the work; more are heard as one texture.
 pub const MAX_VOICES: usize = 48;
-/// Additional voices that fade after being stolen.
+/// Additional voices that fade after being stolen: a third of the voices can be stolen within one fade.
 pub const FADING_VOICES: usize = 16;
-/// Commands that can wait.
+/// Commands that can wait for their sample: several simulation steps of the busiest scene.
 pub const MAX_COMMANDS: usize = 1024;
 
 /// Fade of a stolen voice, s: short, yet without a click.
 const STEAL_FADE: f64 = 0.003;
-/// [`SoundCommand::Silence`] takes this long, s.
+/// Duration of the fade of [`SoundCommand::Silence`], s: no click, and over before the next exhibit sounds.
 const SILENCE_FADE: f64 = 0.04;
 /// Plays the instruments of one exhibit.
 pub struct Synth {
@@ -72,6 +72,9 @@ impl Synth {
     /// A silent synth at sample 0.
     ///
     /// Solves the plates' modes, so it takes milliseconds per instrument; everything afterwards is real-time.
+    ///
+    /// # Errors
+    /// An instrument names no shipped preset, or its preset does not fit its body.
     pub fn new(sample_rate: u32, instruments: &[InstrumentSpec], seed: u64) -> Result<Self, TimbreError> {
         let mut shared = Shared::default();
         let mut compiled = Vec::with_capacity(instruments.len());
@@ -82,6 +85,9 @@ impl Synth {
     }
 
     /// A synth of one instrument with a preset that need not be a shipped one.
+    ///
+    /// # Errors
+    /// The preset does not fit the body.
     pub fn with_preset(
         sample_rate: u32,
         preset: &Preset,
@@ -92,6 +98,9 @@ impl Synth {
     }
 
     /// A synth of instruments with presets that need not be shipped ones.
+    ///
+    /// # Errors
+    /// A preset does not fit its body.
     pub fn with_presets(
         sample_rate: u32,
         instruments: &[(&Preset, &InstrumentSpec)],
@@ -153,7 +162,7 @@ impl Synth {
         }
     }
 
-    /// Hz.
+    /// Sample rate, Hz.
     pub fn sample_rate(&self) -> u32 {
         self.sample_rate as u32
     }

@@ -11,14 +11,14 @@
 
 use soffio_math::{PI, cos, sin};
 
-/// Points between two samples, and one of the samples.
+/// Points of the wave for each sample, the sample itself included (BS.1770-4, annex 2: fourfold).
 const PHASES: usize = 4;
-/// Samples that one point is made of.
+/// Samples that one point is interpolated from (BS.1770-4, annex 2).
 const TAPS: usize = 12;
-/// Frames by which the answer is late.
+/// Frames by which the answer is late: half the taps.
 pub(super) const DELAY: usize = TAPS / 2;
 
-/// What sums of rounded numbers may be beyond the sum.
+/// Factor by which sums of rounded numbers may exceed the sum.
 const ROUNDING: f64 = 1.0 + 1e-5;
 /// Sums that are made at once: each point of either channel, and two of nothing, for a processor's sake.
 const LANES: usize = 8;
@@ -35,6 +35,7 @@ pub(super) struct TruePeak {
 }
 
 impl TruePeak {
+    /// A meter that has seen silence.
     pub fn new() -> Self {
         let tap = |phase: usize, j: usize| {
             let d = j as f64 - (TAPS / 2 - 1) as f64 - (phase + 1) as f64 / PHASES as f64;

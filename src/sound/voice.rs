@@ -1,21 +1,22 @@
 //! A voice: the sound of an impact beside its modal part, or the sustained sound of wind or a slide on one instrument.
 
+use super::bounds::{FAULT_LEVEL, INAUDIBLE};
 use super::graph::{AudioBlock, Bus, CONTROL_PERIOD, Graph, OperatorState};
 use super::instrument::Instrument;
 use super::timbre::{Inputs, MAX_NODES};
 use super::true_peak::peak;
 
-/// A voice is silent below this: −100 dB of full scale.
-const INAUDIBLE: f32 = 1e-5;
-/// Grid points of silence after which a voice ends.
+/// Grid points of silence after which a voice ends: 5 ms at 48 kHz.
 const QUIET_GRID_POINTS: u32 = 4;
-/// Louder samples are invalid, not loud.
-pub(super) const FAULT_LEVEL: f32 = 1000.0;
 
 pub(super) struct Voice {
+    /// Does it sound?
     pub state: VoiceState,
+    /// Index of its instrument in the synth.
     pub instrument: usize,
+    /// Values of the inputs that its numbers are bound to.
     pub inputs: Inputs,
+    /// State of each node of its timbre.
     pub operators: [OperatorState; MAX_NODES],
     /// Left and right, distance included.
     pub gains: [f32; 2],
@@ -37,6 +38,7 @@ pub(super) enum VoiceState {
 }
 
 impl Voice {
+    /// A voice that is free.
     pub fn new() -> Self {
         Self {
             state: VoiceState::Free,
@@ -75,7 +77,7 @@ impl Voice {
 
     /// Updates the state at a grid point: a silent voice becomes free.
     pub fn grid_point(&mut self, graph: &Graph) {
-        let silent = self.peak < INAUDIBLE && !graph.holds(&self.operators);
+        let silent = self.peak < INAUDIBLE as f32 && !graph.holds(&self.operators);
         self.quiet = if silent { self.quiet + 1 } else { 0 };
         if self.quiet > QUIET_GRID_POINTS {
             self.state = VoiceState::Free;

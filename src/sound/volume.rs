@@ -13,10 +13,11 @@
 
 /// Loudness that exhibits are levelled to, LUFS (EBU R 128), which for this purpose is dB of a full-scale sine.
 pub const PROGRAMME: f64 = -23.0;
-/// Rates at which the attenuation grows and recovers, dB/s.
+/// Rate at which the attenuation grows, dB/s: too slow to be heard as a change of volume.
 const ATTENUATION_RATE: f64 = 0.5;
+/// Rate at which the attenuation recovers, dB/s: ten times slower, so that the volume does not sway.
 const RECOVERY_RATE: f64 = 0.05;
-/// Greatest attenuation, dB.
+/// Greatest attenuation, dB: beyond it the calibration is wrong, not the exhibit loud.
 const MAX_ATTENUATION: f64 = 24.0;
 
 /// Loudness settings of a site.

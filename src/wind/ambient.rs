@@ -30,7 +30,7 @@ use soffio_math::{DVec3, PI, exp, sin};
 /// One ambient wind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wind {
-    /// Unique in the exhibit.
+    /// Name, unique in the exhibit.
     pub name: String,
     /// Its velocity field.
     pub kind: WindKind,
@@ -47,14 +47,14 @@ pub enum WindKind {
     Fan {
         /// Centre of the disc, world, m.
         at: DVec3,
-        /// Unit.
+        /// Direction of the jet, unit.
         direction: DVec3,
-        /// m.
+        /// Diameter of the disc, m.
         diameter: f64,
     },
     /// Parallel flow.
     Draught {
-        /// Unit.
+        /// Direction of the flow, unit.
         direction: DVec3,
         /// Where it enters; `None`: it is everywhere.
         inlet: Option<Inlet>,
@@ -73,9 +73,9 @@ pub enum WindKind {
 /// Where a draught enters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inlet {
-    /// World, m.
+    /// Centre of the inlet, world, m.
     pub center: DVec3,
-    /// Full width at half the speed, m.
+    /// Width of the draught at the inlet, m: full width at half of the speed on its axis.
     pub width: f64,
 }
 
@@ -105,17 +105,17 @@ pub enum Modulation {
     },
 }
 
-/// Octaves of the spectra of gusts and turbulence.
+/// Octaves of the spectra of gusts and turbulence: the forces of finer eddies cancel over a plate.
 const OCTAVES: usize = 3;
 /// 2^(−1/3): amplitude of an octave over that of the one before (Kolmogorov).
 const OCTAVE_GAIN: f64 = 0.793_700_525_984_099_7;
 /// 2^(2/3): rate of change of an octave over that of the one before (Kolmogorov).
 const OCTAVE_RATE: f64 = 1.587_401_051_968_199_5;
-/// Root mean square of the octaves of turbulence before they are scaled to 1 (measured; a test checks it).
+/// Root mean square of the octaves of turbulence before they are scaled to 1. Measured; a test checks it.
 const OCTAVES_RMS: f64 = 0.666;
 /// Unit direction in which the noise of turbulence is traversed over time: oblique to its lattice.
 const NOISE_DIRECTION: DVec3 = DVec3::new(0.602, 0.437, 0.669);
-/// Radius within which turbulence is sampled once, as a share of its largest eddies.
+/// Radius within which turbulence is sampled once, as a share of its largest eddies: within it the speed hardly varies.
 const UNIFORM_SHARE: f64 = 0.2;
 /// Least speed at which gusts travel, m/s: slower winds would delay them without bound.
 const MIN_CONVECTION_SPEED: f64 = 0.05;
@@ -318,6 +318,7 @@ mod tests {
         AmbientWind::new(&[Wind { name: "wind".into(), kind, speed: speed.into(), modulation }])
     }
 
+    /// A wind along x without an inlet.
     const EAST: WindKind = WindKind::Draught { direction: DVec3::X, inlet: None };
 
     fn at(wind: &mut AmbientWind, time: f64, point: DVec3) -> DVec3 {

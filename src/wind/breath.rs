@@ -15,13 +15,13 @@
 
 use soffio_math::{DVec3, PI, exp};
 
-/// kg/m³, air at 20 °C.
+/// Density of air, kg/m³ (20 °C, 1013 hPa).
 pub const AIR_DENSITY: f64 = 1.2;
-/// Centre-line decay of the jet: v_c = DECAY · U₀ d / x.
+/// B of the centre-line decay of the jet, v_c = B U₀ d / x (Pope 2000, table 5.1: 5.8 to 6.1).
 pub const DECAY: f64 = 6.0;
-/// Half-speed radius of the jet over distance.
+/// Half-speed radius of the jet over distance, S (Pope 2000, table 5.1: 0.094).
 pub const SPREAD: f64 = 0.094;
-/// Tangent of the visible half-angle, 11.8°.
+/// Tangent of the visible half-angle of a round jet, 11.8°.
 pub const TAN_HALF_ANGLE: f64 = 0.208_916;
 /// Radius of the jet in half-speed radii; beyond it the speed is below a 65,000th of that on the axis.
 const JET_EDGE: f64 = 4.0;
@@ -50,7 +50,7 @@ pub struct JetPoint {
 pub struct Breath {
     /// Centre of the lips, world, m.
     pub mouth: DVec3,
-    /// Unit.
+    /// Direction of the breath, unit.
     pub direction: DVec3,
     /// d, m.
     pub lip_diameter: f64,

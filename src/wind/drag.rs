@@ -37,7 +37,9 @@ pub(super) struct DragCoefficients {
 /// Drag coefficients along a patch's axis and across it.
 #[derive(Clone, Copy)]
 pub(super) struct AxisDrag {
+    /// Coefficient along the axis.
     pub along: f64,
+    /// Coefficient across the axis.
     pub across: f64,
 }
 

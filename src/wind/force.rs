@@ -63,10 +63,12 @@ struct Eddies {
     gain: f64,
 }
 
+/// Noise of the breath's turbulence: chosen so that the force on a face fluctuates by a fifth (see [`TURBULENCE`]).
 const EDDIES: Eddies = Eddies { size: 0.06, speed: 0.5, rate: 0.37, gain: 2.0 };
 /// Distance before the lips at which [`WindReport::gust`] is sampled, m.
 const GUST_DISTANCE: f64 = 0.5;
-/// Most patches of a surface that [`WindField::visible_fraction`] tests.
+/// Most patches of a surface that [`WindField::visible_fraction`] tests: steps of 6 %, finer than an eye sees in the
+/// aim.
 const VISIBILITY_SAMPLES: usize = 16;
 
 /// The breath in one step, as it acts on surfaces.
@@ -118,11 +120,11 @@ pub struct PatchSample {
     pub surface: usize,
     /// Index of the patch on it.
     pub patch: usize,
-    /// World, m.
+    /// World point, m.
     pub point: DVec3,
     /// Outward normal or direction of the wire, world, unit.
     pub axis: DVec3,
-    /// m².
+    /// Area, m².
     pub area: f64,
     /// Whether it faces the lips and nothing hides it from them.
     pub visible: bool,

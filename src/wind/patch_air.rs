@@ -11,13 +11,14 @@ use soffio_geometry::rays::Occluders;
 use soffio_math::DVec3;
 use soffio_math::lanes::WIDTH;
 
-/// Slower wind is taken for still air and casts no ray, m/s.
+/// Speed below which a wind is taken for still air and casts no ray, m/s: its force is a millionth of that of a breath
+/// of 10 m/s.
 pub(crate) const STILL_AIR: f64 = 0.01;
 
 /// The breath's air at one patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct BreathAir {
-    /// World, m/s.
+    /// Velocity of the air, world, m/s.
     pub velocity: DVec3,
     /// Speed at which it left the lips, m/s; 0 where no breath arrives.
     pub source_speed: f64,

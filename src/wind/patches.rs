@@ -38,9 +38,10 @@ pub enum PatchKind {
     Wire,
 }
 
-/// Maximum length of a piece of wire, m.
+/// Longest piece of wire, m: below the width of the jet at arm's length.
 const WIRE_LENGTH: f64 = 0.02;
-/// Weight of the difference between normals against the squared distance over the surface's area.
+/// Weight of the difference between normals against the squared distance over the surface's area: a point on the same
+/// side wins over a nearer one around the edge.
 const NORMAL_WEIGHT: f64 = 4.0;
 
 /// Splits a surface into patches.
@@ -97,6 +98,7 @@ fn sample_mesh(mesh: &TriangleMesh, sampling: &Sampling, kind: PatchKind) -> Vec
     let (fewest, most) = (*sampling.count.start(), *sampling.count.end());
     let count = ((total * sampling.per_area).ceil() as usize).clamp(fewest.max(1), most.max(1));
     // R₂ sequence: the powers −1 and −2 of the plastic number.
+    /// R₂ sequence (M. Roberts, 2018): the powers −1 and −2 of the plastic number.
     const R2: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053];
     let mut random = Random::new(sampling.seed);
     let offset = [random.unit(), random.unit()];

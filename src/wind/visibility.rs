@@ -11,12 +11,12 @@ use super::wind_surface::{PlacedPatch, WindSurface};
 use soffio_geometry::rays::{Hint, Occluders, SightLine};
 use soffio_math::DVec3;
 
-/// Rays start this far off their own face, m.
+/// Distance off its own face at which a ray starts, m: more than single precision rounds, less than any gap.
 const RAY_OFFSET: f64 = 1e-4;
 /// Parts of its own body that rise less than this above a patch do not block it, m: the ray passes them by more than single
 /// precision rounds.
 const OBSTRUCTION_HEIGHT: f64 = 0.5 * RAY_OFFSET;
-/// Occluders beyond this distance give no shelter from a directed wind, m.
+/// Distance beyond which occluders give no shelter from a directed wind, m: larger than any scene.
 const MAX_DISTANCE: f64 = 50.0;
 
 /// Whether no part of its own body rises above a patch's front, and above its back.

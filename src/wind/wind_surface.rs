@@ -20,9 +20,9 @@ const BALL_MARGIN: f64 = 1e-9;
 /// A ball in the node frame of a body that holds all patches of a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct BoundingBall {
-    /// m.
+    /// Centre, m.
     pub center: DVec3,
-    /// m.
+    /// Radius, m.
     pub radius: f64,
 }
 
@@ -38,15 +38,19 @@ pub(crate) struct PatchGroup {
 /// The patches of a surface and its drag coefficients.
 #[derive(Clone)]
 pub(crate) struct WindSurface {
+    /// Index of the body that carries it.
     pub body: usize,
+    /// The patches.
     pub patches: Vec<Patch>,
     /// The same patches in blocks of [`WIDTH`].
     pub blocks: Vec<PatchBlock>,
+    /// Ball that holds all patches.
     pub ball: BoundingBall,
     /// Of each patch, whether its own body leaves its front and its back clear.
     pub clear_sides: Vec<[bool; 2]>,
     /// The last occluder of each patch: of the breath's rays, then of each ambient wind's.
     hints: Vec<Cell<Hint>>,
+    /// Groups of patches for the undirected wind.
     pub groups: Vec<PatchGroup>,
     coefficients: DragCoefficients,
 }
@@ -113,7 +117,7 @@ fn group_patches(patches: &mut [Patch], start: usize, uniform_radius: f64, group
 /// A patch in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PlacedPatch {
-    /// m.
+    /// World point, m.
     pub point: DVec3,
     /// Outward unit normal, or the wire's unit direction.
     pub axis: DVec3,
@@ -121,7 +125,9 @@ pub(crate) struct PlacedPatch {
 
 /// A surface on its body. Forces are computed in the body's frame, in which the patches are fixed.
 pub(crate) struct PosedSurface<'a> {
+    /// The surface.
     pub surface: &'a WindSurface,
+    /// The body that carries it.
     pub body: &'a RigidBody,
     /// Rotation from the body's frame to the world.
     pub to_world: DMat3,
@@ -130,6 +136,7 @@ pub(crate) struct PosedSurface<'a> {
 }
 
 impl<'a> PosedSurface<'a> {
+    /// The surface at the body's present pose.
     #[inline(always)]
     pub fn new(surface: &'a WindSurface, body: &'a RigidBody) -> Self {
         let to_world = matrix(body.rotation);

@@ -37,10 +37,10 @@ pub fn assembles_in_a_few_seconds(id: &str) {
         assert!(open < TOGETHER, "{id}, seed {seed}: joints open by {open} m");
         assert!(last < HOME, "{id}, seed {seed}: {last} m from home");
         // Then it is the exhibit at its start.
-        let mut anew = Simulation::new(exhibit.clone(), Settings::default());
+        let mut fresh = Simulation::new(exhibit.clone(), Settings::default());
         simulation.step(&StepInput::default());
-        anew.step(&StepInput::default());
+        fresh.step(&StepInput::default());
         assert_eq!(simulation.assembly_distance(), None, "{id}");
-        assert_eq!(simulation.bodies(), anew.bodies(), "{id}, seed {seed}");
+        assert_eq!(simulation.bodies(), fresh.bodies(), "{id}, seed {seed}");
     }
 }

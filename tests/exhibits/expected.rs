@@ -110,7 +110,7 @@ pub fn is_as_its_folder_says(id: &str) {
     let same = stored.state == found.state && stored.moving_bodies == found.moving_bodies;
     assert!(
         same && mass && tilts,
-        "{id}: stored {stored:#?}\nfound {found:#?}\nA change must be meant; then write the files anew: \
+        "{id}: stored {stored:#?}\nfound {found:#?}\nA change must be meant; then write the files again: \
          cargo test --no-default-features --test exhibits write_what_is_expected -- --ignored"
     );
 }

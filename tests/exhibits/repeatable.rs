@@ -58,7 +58,7 @@ pub fn a_step_asks_for_no_memory_once_it_is_warm(id: &str) {
     let mut simulation = Simulation::new(load(id), Settings::default());
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/gusts.jsonl"))
         .expect("the script");
-    // The reset of the script builds the figure anew; until then nothing may.
+    // The reset of the script builds the figure again; until then nothing may.
     let text: Vec<&str> = text.lines().take_while(|line| !line.contains("reset")).collect();
     let mut script = Script::parse(&text.join("\n")).expect("a good script");
     let mut commands = Vec::with_capacity(8);

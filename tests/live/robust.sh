@@ -120,7 +120,7 @@ killed() {
         "$(state on_show) on show, muted: $(state muted)"
     local code=0
     end_launcher || code=$?
-    bar "killed: orderly end" "$code == 130 && \"$(state life)\" == \"ended\"" "exit code $code, life: $(state life)"
+    bar "killed: orderly end" "$code == 130 && \"$(state phase)\" == \"ended\"" "exit code $code, phase: $(state phase)"
 }
 
 # ---- repeated crashes: safe mode with a built-in exhibit, and a message for staff -------------------------------------
@@ -136,8 +136,8 @@ crash_loop() {
     within 20 picture || true
     sleep 2.5
     saw=$(grep -c 'safe mode: the kiosk crashed' "$workdir/loop.err" || true)
-    bar "crash loop: safe mode" "$saw == 1 && \"$(state on_show)\" == \"pendulum\" && $(state deaths) == 3" \
-        "$(state deaths) deaths, $(state on_show) on show, $saw messages for staff"
+    bar "crash loop: safe mode" "$saw == 1 && \"$(state on_show)\" == \"pendulum\" && $(state start_crashes) == 3" \
+        "$(state start_crashes) crashes, $(state on_show) on show, $saw messages for staff"
     end_launcher || true
     # Where no state can be stored, the launcher counts.
     XDG_STATE_HOME=/dev/null launch_kiosk unkept --exhibit "$exhibit" --no-attract

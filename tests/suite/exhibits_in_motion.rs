@@ -323,7 +323,7 @@ fn a_breath_on_the_fan_holds_the_weight_back() {
 }
 
 #[test]
-fn after_its_time_the_gear_train_begins_anew() {
+fn after_its_time_the_gear_train_starts_again() {
     let mut visit = Visit::new("gear-train", still(), "");
     let duration = visit.simulation.exhibit().duration;
     let start = *visit.body("Weight");

@@ -77,8 +77,39 @@ fn a_configuration_with_an_old_name_is_read_with_a_warning_that_names_the_new_on
     let text = "[care]\nfoam_blows = -1\n[audio]\nsecond_capsule_channel = 99 \n";
     let error = Config::parse(text, file).expect_err("two numbers are out of range").to_string();
     assert!(error.contains("kiosk.toml:2:14: ") && error.contains("kiosk.toml:4:26: "), "{error}");
-    let both = Config::parse("[care]\n[maintenance]\n", file).expect_err("the same table twice").to_string();
-    assert!(both.contains("kiosk.toml:2:"), "{both}");
+}
+
+#[test]
+fn a_file_with_both_names_of_a_key_says_that_one_is_the_old_name_of_the_other() {
+    for (text, place, old, new) in [
+        ("[care]\n[maintenance]\n", "2:", "care", "maintenance"),
+        ("[maintenance]\n[care]\n", "2:", "care", "maintenance"),
+        ("[visit]\nreduced_motion = true\ncalm = true\n", "3:1", "calm", "reduced_motion"),
+        ("[visit]\n\"calm\" = true\nreduced_motion = true\n", "3:1", "calm", "reduced_motion"),
+    ] {
+        let error = Config::parse(text, Path::new("kiosk.toml")).expect_err("the same key twice").to_string();
+        let message = format!("`{new}` and `{old}` are one key: `{old}` is its old name");
+        assert!(error.contains(&message) && error.contains(&format!("kiosk.toml:{place}")), "{text}: {error}");
+        assert!(error.contains(&format!("keep one of the two, `{new}`")), "{error}");
+    }
+    // A key that stands twice by one name is another mistake, with old names nearby or without.
+    for text in ["[visit]\ncalm = true\ncalm = true\n", "[care]\n[visit]\ndwell = true\ndwell = true\n"] {
+        let error = Config::parse(text, Path::new("kiosk.toml")).expect_err("the same key twice").to_string();
+        assert!(error.contains("duplicate key") && !error.contains("one key"), "{text}: {error}");
+    }
+    let desk = Desk::new();
+    let folder = desk.path("steel-fish");
+    copy(&root().join("exhibits/steel-fish"), &folder);
+    let file = folder.join("exhibit.toml");
+    let text = std::fs::read_to_string(&file).expect("readable") + "\n[wind.calm]\nafter = \"4 s\"\n";
+    std::fs::write(&file, text).expect("writable");
+    let run = desk.soffio(&["check", "--quick", "steel-fish"]);
+    let said = &run.err;
+    for words in ["`idle_damping` and `calm` are one key: `calm` is its old name", "[wind.calm]", "keep one of the two"]
+    {
+        assert!(said.contains(words), "no \"{words}\" in {said}");
+    }
+    assert!(said.contains("steel-fish: 1 problem"), "{said}");
 }
 
 /// The text with old names in the place of new ones.

@@ -70,7 +70,7 @@ fn the_synth_never_allocates() {
 mod callback {
     use super::*;
     use soffio_devices::audio::output::{Engine, open};
-    use soffio_devices::audio::{ClockMap, Knobs, LOUDEST, MicrophoneSamples, Utterance, input};
+    use soffio_devices::audio::{ClockMap, Knobs, LOUDEST, MicrophoneSamples, PlayedEnergy, Utterance, input};
     use std::sync::Arc;
 
     fn engine(rate: u32, generation: u64) -> Engine {
@@ -141,7 +141,7 @@ mod callback {
                 assert!(block.iter().all(|s| *s == 0.0), "block {i}");
             }
         }
-        let (energy, seconds) = knobs.played();
+        let PlayedEnergy { energy, seconds } = knobs.played();
         assert!((seconds - 1.5).abs() < 1e-9 && energy > 0.0, "{energy}, {seconds}");
     }
 
@@ -297,7 +297,7 @@ mod callback {
             }
         }
         assert_eq!(late, 0);
-        // After a standstill of a second the map starts anew.
+        // After a standstill of a second the map starts again.
         clock.look(10_000_000, 10_050_000, 480);
         assert_eq!(clock.frame(10_000_000), 10_050_680);
     }

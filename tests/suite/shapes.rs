@@ -39,7 +39,7 @@ fn weights(track: &ShapeTrack, t: f64) -> [f64; 2] {
 }
 
 #[test]
-fn weights_go_from_key_to_key_as_their_curve_says_and_begin_anew() {
+fn weights_go_from_key_to_key_as_their_curve_says_and_start_again() {
     let near = |found: [f64; 2], wanted: [f64; 2], what: &str| {
         let off = (found[0] - wanted[0]).abs().max((found[1] - wanted[1]).abs());
         assert!(off < ROUNDING, "{what}: {found:?} instead of {wanted:?}");
@@ -251,7 +251,7 @@ mod drawn {
             let pairs = pictures[a].as_raw().iter().zip(pictures[b].as_raw());
             pairs.map(|(a, b)| a.abs_diff(*b)).max().unwrap_or_default()
         };
-        assert!(apart(0, 3) <= SAME && apart(1, 4) <= SAME, "after two seconds it begins anew");
+        assert!(apart(0, 3) <= SAME && apart(1, 4) <= SAME, "after two seconds it starts again");
         assert!(apart(0, 1) > SAME && apart(1, 2) > SAME);
     }
 

@@ -178,7 +178,7 @@ fn audio_self_test(config: &Config, audio: &mut AudioIo) -> Finding {
     let mut history =
         persisted::folder(config).and_then(|folder| persisted::read(&folder)).unwrap_or_default().self_test;
     if let Ok(response) = &outcome
-        && history.clean_db.len() < REFERENCE_RUNS
+        && history.reference_db.len() < REFERENCE_RUNS
     {
         let octaves = BANDS.iter().zip(response.levels_db).zip(response.clear);
         let said: Vec<String> = octaves

@@ -19,6 +19,9 @@ pub(super) struct Filming {
 
 impl Filming {
     /// The requested pictures of a run of so many seconds; `None` where none are requested.
+    ///
+    /// # Errors
+    /// There is no graphics device, or a file cannot be created.
     pub fn new(wanted: &Outputs, exhibit: &Arc<Exhibit>, seconds: f64) -> Result<Option<Self>, Failure> {
         if wanted.frames.is_none() && wanted.video.is_none() {
             return Ok(None);
@@ -48,6 +51,9 @@ impl Filming {
     }
 
     /// Draws a frame.
+    ///
+    /// # Errors
+    /// The picture cannot be drawn or written.
     pub fn frame(&mut self, number: u64, now: &Snapshot) -> Result<(), String> {
         let picture = self.pictures.draw(now).map_err(|e| e.to_string())?;
         if let Some(folder) = &self.folder {
@@ -57,6 +63,9 @@ impl Filming {
     }
 
     /// Ends the video with the run's sound.
+    ///
+    /// # Errors
+    /// The video cannot be completed.
     pub fn finish(self, sound: Option<&Path>) -> Result<(), String> {
         self.video.map_or(Ok(()), |video| video.finish(sound))
     }

@@ -90,6 +90,9 @@ enum ProfileArg {
 }
 
 /// Reads `x,y`.
+///
+/// # Errors
+/// The text is not of this form, or a coordinate is outside 0 … 1.
 pub fn parse_aim(text: &str) -> Result<[f64; 2], String> {
     let wrong = || format!("\"{text}\" is no aim; write two numbers from 0 to 1, as in 0.4,0.5");
     let (x, y) = text.split_once(',').ok_or_else(wrong)?;

@@ -66,6 +66,9 @@ impl Outputs {
     }
 
     /// Runs the exhibit without pictures.
+    ///
+    /// # Errors
+    /// A file cannot be written, or the run fails.
     #[cfg(not(feature = "kiosk"))]
     pub fn perform(
         &self,
@@ -78,6 +81,9 @@ impl Outputs {
     }
 
     /// Runs the exhibit, and renders frames where requested.
+    ///
+    /// # Errors
+    /// A file cannot be written, a picture cannot be drawn, or the run fails.
     #[cfg(feature = "kiosk")]
     pub fn perform(
         &self,

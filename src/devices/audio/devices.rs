@@ -202,7 +202,7 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
         };
         let Some(device) = device else { continue };
         match configure(&device, direction, block_ms) {
-            Ok((config, format, shortest_block)) => {
+            Ok(StreamChoice { config, format, shortest_block }) => {
                 let (id, name) = (id(&device), name(&device));
                 return Ok(Chosen { id, name, device, config, format, shortest_block });
             }
@@ -212,12 +212,16 @@ pub fn choose(direction: Direction, wanted: &str, block_ms: f64) -> Result<Chose
     Err(problem)
 }
 
-/// The preferred rate if the device has it in its own format, else its own rate.
-fn configure(
-    device: &Device,
-    direction: Direction,
-    block_ms: f64,
-) -> Result<(StreamConfig, SampleFormat, Option<u32>), cpal::Error> {
+/// How a device is opened.
+struct StreamChoice {
+    config: StreamConfig,
+    format: SampleFormat,
+    /// Shortest block that the driver offers, frames, if it says so.
+    shortest_block: Option<u32>,
+}
+
+/// The preferred rate if the device has it in its own format, else its own rate; blocks of about `block_ms`, ms.
+fn configure(device: &Device, direction: Direction, block_ms: f64) -> Result<StreamChoice, cpal::Error> {
     let (own, ranges): (_, Vec<SupportedStreamConfigRange>) = match direction {
         Direction::Input => (device.default_input_config()?, device.supported_input_configs()?.collect()),
         Direction::Output => (device.default_output_config()?, device.supported_output_configs()?.collect()),
@@ -228,11 +232,12 @@ fn configure(
     let preferred = ranges.iter().filter(same).find_map(|range| range.try_with_sample_rate(PREFERRED_RATE));
     let chosen = preferred.unwrap_or(own);
     let frames = (block_ms.clamp(1.0, 200.0) * f64::from(chosen.sample_rate()) / 1000.0).round() as u32;
-    let (buffer_size, shortest) = match *chosen.buffer_size() {
+    let (buffer_size, shortest_block) = match *chosen.buffer_size() {
         cpal::SupportedBufferSize::Range { min, max } if min <= max => {
             (BufferSize::Fixed(frames.clamp(min, max)), Some(min))
         }
         _ => (BufferSize::Default, None),
     };
-    Ok((StreamConfig { buffer_size, ..chosen.config() }, chosen.sample_format(), shortest))
+    let config = StreamConfig { buffer_size, ..chosen.config() };
+    Ok(StreamChoice { config, format: chosen.sample_format(), shortest_block })
 }

@@ -42,7 +42,8 @@ pub struct HearingLoop {
     gain: f32,
 }
 
-/// Both ends, between devices of these rates, Hz; `gain` is linear.
+/// Makes both ends of a hearing loop: the main output writes mono samples at `from_rate`, Hz; the second device plays them
+/// at `rate`, Hz, on all of its `channels`, with the linear `gain`.
 pub fn open(from_rate: u32, rate: u32, channels: usize, gain: f32) -> (Tail, HearingLoop) {
     let (to, from) = RingBuffer::new((ROOM * f64::from(from_rate)) as usize);
     let hearing = HearingLoop {

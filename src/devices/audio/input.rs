@@ -93,7 +93,7 @@ impl Recorder {
 }
 
 impl MicrophoneReader {
-    /// Hz.
+    /// Sample rate of the microphone, Hz.
     pub fn sample_rate(&self) -> u32 {
         self.sample_rate
     }

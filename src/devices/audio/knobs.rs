@@ -16,6 +16,15 @@ pub struct Knobs {
     seconds: AtomicU64,
 }
 
+/// Sound energy that an output has played, and for how long.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlayedEnergy {
+    /// A-weighted power ([`soffio_sound::AWeighting::power`], ½ for a full-scale sine of 1 kHz) times time, s.
+    pub energy: f64,
+    /// Time, s.
+    pub seconds: f64,
+}
+
 impl Knobs {
     /// At this volume, linear, by day.
     pub fn new(volume: f32) -> Self {
@@ -39,11 +48,11 @@ impl Knobs {
         self.night.store(night, Ordering::Relaxed);
     }
 
-    /// Power times time ([`soffio_sound::AWeighting::power`], s) of all that was played, and the time, s.
-    pub fn played(&self) -> (f64, f64) {
+    /// All that was played since the output began to count.
+    pub fn played(&self) -> PlayedEnergy {
         // Read apart they may differ by one block, which no mean over a second shows.
         let read = |number: &AtomicU64| f64::from_bits(number.load(Ordering::Relaxed));
-        (read(&self.energy), read(&self.seconds))
+        PlayedEnergy { energy: read(&self.energy), seconds: read(&self.seconds) }
     }
 
     pub(super) fn volume(&self) -> f32 {

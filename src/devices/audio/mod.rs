@@ -35,7 +35,7 @@ use std::thread::JoinHandle;
 
 pub use clock::ClockMap;
 pub use input::MicrophoneSamples;
-pub use knobs::Knobs;
+pub use knobs::{Knobs, PlayedEnergy};
 pub use reference::ReferenceTap;
 pub use soffio_config::AudioSettings;
 pub use speech_mixer::{LOUDEST, Utterance};
@@ -90,7 +90,7 @@ impl SoundDelay {
     }
 }
 
-/// State of one device.
+/// State of an audio device, microphone or output, as the status page and the metrics show it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum DeviceState {
     /// Not opened yet.
@@ -100,10 +100,10 @@ pub enum DeviceState {
     Ok {
         /// Name in the system.
         name: String,
-        /// Hz.
+        /// Sample rate, Hz.
         sample_rate: u32,
     },
-    /// Missing for this reason; opening is retried.
+    /// Missing or failed, for this reason; opening is retried.
     Missing(String),
     /// Closed by the kiosk: outside opening hours, or at a site without breath.
     Closed,
@@ -147,7 +147,7 @@ impl AudioIo {
         let status = Arc::new(Mutex::new(AudioStatus::default()));
         let knobs = Arc::new(Knobs::new(db_to_amplitude(settings.volume_db) as f32));
         let supervisor =
-            Supervisor::new((settings.clone(), listens), Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
+            Supervisor::new(settings.clone(), listens, Box::new(synth), inbox, outbox, status.clone(), knobs.clone());
         let supervisor = std::thread::Builder::new().name("soffio-audio".into()).spawn(move || supervisor.run());
         if let Err(error) = &supervisor {
             let missing = DeviceState::Missing(format!("no thread for the devices: {error}"));

@@ -271,7 +271,7 @@ fn put<T: SizedSample + FromSample<f32>>(frame: &mut [T], [left, right]: [f32; 2
 }
 
 impl OutputHandle {
-    /// Hz.
+    /// Sample rate of the output, Hz.
     pub fn sample_rate(&self) -> u32 {
         self.sample_rate
     }

@@ -223,8 +223,10 @@ pub(super) struct Supervisor {
 }
 
 impl Supervisor {
+    /// A supervisor that has opened no device yet. `inbox` brings requests, `links` takes the ends of opened devices.
     pub fn new(
-        (settings, listens): (AudioSettings, bool),
+        settings: AudioSettings,
+        listens: bool,
         synth: SynthFactory,
         inbox: Receiver<Request>,
         links: Sender<Link>,

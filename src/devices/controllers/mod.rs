@@ -68,7 +68,7 @@ impl Controllers {
         Self { slots, states, stop, threads }
     }
 
-    /// Joint reading of all controllers.
+    /// Present reading of all controllers together, as if they were one.
     pub fn reading(&self) -> Reading {
         self.slots.iter().map(Slot::read).fold(Reading::default(), Reading::join)
     }

@@ -49,6 +49,9 @@ fn count_of(accessor: &gltf::Accessor, broken: &impl Fn(&str) -> ModelError) -> 
 }
 
 /// Elements of `LANES` finite numbers each. Missing lanes are filled with `fill`.
+///
+/// # Errors
+/// The accessor has another type, does not lie within its buffer, or holds a number that is not finite.
 pub fn vectors<const LANES: usize>(
     accessor: &gltf::Accessor,
     buffers: &[Vec<u8>],
@@ -107,6 +110,9 @@ fn unsigned(bytes: &[u8]) -> u32 {
 }
 
 /// Indices of triangles, points or lines, each below `vertices`.
+///
+/// # Errors
+/// An index is not below `vertices`, or the accessor does not lie within its buffer.
 pub fn indices(accessor: &gltf::Accessor, buffers: &[Vec<u8>], vertices: usize) -> Result<Vec<u32>, ModelError> {
     let broken = |what: &str| format!("accessor {} {what}", accessor.index());
     let unsigned_kind = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);

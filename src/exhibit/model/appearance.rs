@@ -168,11 +168,11 @@ impl TextureUse {
 pub struct Sampler {
     /// Wrapping along u and v.
     pub wrap: [Wrap; 2],
-    /// Linear filter when magnified.
+    /// Linear filter when magnified; otherwise the nearest texel.
     pub smooth_near: bool,
-    /// Linear filter when minified.
+    /// Linear filter when minified; otherwise the nearest texel.
     pub smooth_far: bool,
-    /// Use of the mip levels.
+    /// Which mip levels are read when the texture is minified.
     pub levels: Levels,
 }
 

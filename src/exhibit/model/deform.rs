@@ -29,6 +29,9 @@ fn weights(node: &gltf::Node) -> Vec<f32> {
 }
 
 /// Deforms `out` for `node`; `out` is the primitive as stored, before flat normals.
+///
+/// # Errors
+/// Joints, weights or morph targets are invalid.
 pub fn deform(
     node: &gltf::Node,
     source: &gltf::Primitive,
@@ -48,6 +51,9 @@ pub fn deform(
 
 /// The undeformed primitive of a skin or of animated morph targets (`morphs`), from `out`, the primitive as stored,
 /// before flat normals.
+///
+/// # Errors
+/// Joints, weights or morph targets are invalid.
 pub fn bind(
     node: &gltf::Node,
     morphs: bool,
@@ -143,6 +149,9 @@ fn add<const LANES: usize>(weight: f32, differences: &[[f32; 3]], to: &mut [[f32
 const NO_JOINT: &str = "a vertex names a joint that the skin does not have";
 
 /// The inverse bind matrix of each joint of a skin.
+///
+/// # Errors
+/// The accessor is invalid, or has fewer matrices than the skin has joints.
 pub fn inverse_bind(skin: &gltf::Skin, buffers: &[Vec<u8>]) -> Result<Vec<DMat4>, ModelError> {
     let joints = skin.joints().count();
     let Some(inverse) = skin.inverse_bind_matrices() else { return Ok(vec![DMat4::IDENTITY; joints]) };

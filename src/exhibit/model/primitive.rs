@@ -22,6 +22,9 @@ pub fn targets(node: &gltf::Node) -> usize {
 }
 
 /// Decodes a primitive; `deform` can change it before flat normals are made.
+///
+/// # Errors
+/// An accessor is invalid, or `deform` fails.
 pub fn decode(
     primitive: &gltf::Primitive,
     buffers: &[Vec<u8>],

@@ -134,6 +134,40 @@ impl Updated<'_> {
         let start = place(span.start, false);
         start..place(span.end, true).max(start)
     }
+
+    /// Explains a syntax error at bytes of the updated text that the file itself, `text`, does not have: one table has
+    /// both the old and the new name of a key, so that the new name stands there twice. `None` for any other error.
+    pub fn duplicate(&self, text: &str, span: Range<usize>) -> Option<OldName> {
+        let name = self.text.get(span.clone())?.trim_matches(['"', '\'']);
+        let mut ahead = 0_isize;
+        let renamed: Vec<(usize, OldName)> = self
+            .replacements
+            .iter()
+            .map(|Replacement { span, name, text }| {
+                let start = span.start.saturating_add_signed(ahead);
+                ahead += text.len() as isize - span.len() as isize;
+                (start, *name)
+            })
+            .collect();
+        // The old name is the second of the two, where the error is, or the first, before it.
+        let (_, found) = *renamed
+            .iter()
+            .rev()
+            .find(|(start, old)| *start <= span.start && old.subject == Subject::Key && old.new == name)?;
+        toml_edit::Document::parse(text).is_ok().then_some(found)
+    }
+}
+
+impl OldName {
+    /// What is wrong where a table has both names of a key.
+    pub fn duplicate_message(&self) -> String {
+        format!("`{}` and `{}` are one key: `{}` is its old name", self.new, self.old, self.old)
+    }
+
+    /// What to do where a table has both names of a key.
+    pub fn duplicate_help(&self) -> String {
+        format!("keep one of the two, `{}`", self.new)
+    }
 }
 
 /// Replaces the old names in the text of a file. A text with a broken grammar comes back as far as it could be read; its

@@ -240,11 +240,11 @@ pub struct Sound {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SoundParams {
-    /// Longest half extent.
+    /// Half of the body's longest extent.
     pub half_length: Option<Length>,
-    /// Second half extent.
+    /// Half of the body's second longest extent.
     pub half_width: Option<Length>,
-    /// Thickness of the sheet.
+    /// Thickness of the sheet that the body is.
     pub thickness: Option<Length>,
 }
 

@@ -21,9 +21,9 @@ pub struct Attract {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AttractStep {
-    /// Time since the script began.
+    /// Time since the script began, from 0.
     pub at: Time,
-    /// Key of a label text to show.
+    /// Key, in `label.*.text`, of the text to show.
     pub show: Option<String>,
     /// A breath.
     pub blow: Option<Blow>,

@@ -97,7 +97,7 @@ pub enum Restore {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum RestoreWord {
-    /// When the exhibit starts anew.
+    /// When the exhibit is reset.
     OnReset,
     /// Not in this run.
     Never,

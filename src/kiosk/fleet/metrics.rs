@@ -46,14 +46,23 @@ pub struct MetricsInput<'a> {
     pub persisted: &'a PersistedState,
     /// Times between frames of this run.
     pub frames: &'a Histogram,
-    /// Safe mode?
+    /// Does the kiosk run in safe mode?
     pub safe: bool,
     /// Was the last reloaded file, a configuration or an exhibit, valid?
     pub reloads: bool,
-    /// Breaths for which a foam lasts; 0: not counted.
+    /// Number of breaths after which the microphone's foam is changed; 0: no limit.
     pub foam_lasts: u32,
-    /// Id and version of the exhibit on show.
-    pub content: (&'a str, &'a str),
+    /// The exhibit on show.
+    pub content: ContentVersion<'a>,
+}
+
+/// An exhibit in the version that is on show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ContentVersion<'a> {
+    /// Id of the exhibit.
+    pub exhibit: &'a str,
+    /// Hash of its sidecar, in hexadecimal digits.
+    pub version: &'a str,
 }
 
 /// The metrics as text.
@@ -72,7 +81,7 @@ fn machine(page: &mut MetricsText, frame: &LiveState, numbers: &MetricsInput) {
     page.number("starts_total", "counter", "Starts of the kiosk", numbers.persisted.starts as f64);
     page.number("safe_mode", "gauge", "Safe mode after a crash loop", flag(numbers.safe));
     page.number("last_reload_success", "gauge", "1 if the last reloaded file was valid", flag(numbers.reloads));
-    let labels: [(&str, &str); 2] = [("exhibit", numbers.content.0), ("version", numbers.content.1)];
+    let labels: [(&str, &str); 2] = [("exhibit", numbers.content.exhibit), ("version", numbers.content.version)];
     page.labelled("content_info", "gauge", "What is on show", &[(&labels, 1.0)]);
     page.histogram("frame_seconds", "Time between two frames", FRAME_S, numbers.frames);
     page.number("physics_step_seconds", "gauge", "Recent mean time of a simulation step", load.step_s);
@@ -100,15 +109,20 @@ fn sound(page: &mut MetricsText, frame: &LiveState) {
         page.number("audio_input_level_dbfs", "gauge", "Level of the microphone, dB of full scale", level);
     }
     page.number("mic_ok", "gauge", "1 while the microphone is open", is_open(&audio.input));
-    page.number("loudspeaker_ok", "gauge", "1 while the loudspeaker plays", is_open(&audio.output));
+    page.number("output_ok", "gauge", "1 while the sound output plays", is_open(&audio.output));
     if let Some(state) = &audio.hearing_loop {
         page.number("hearing_loop_ok", "gauge", "1 while the hearing loop plays", is_open(state));
     }
-    page.number("loudspeaker_openings_total", "counter", "Times a loudspeaker was opened", audio.openings as f64);
+    page.number("output_openings_total", "counter", "Times a sound output was opened", audio.openings as f64);
     page.number("volume_db", "gauge", "Volume, dB of full scale", loud.volume_db);
     page.number("muted", "gauge", "Muted by staff", flag(loud.muted));
     page.number("night", "gauge", "1 while the sound is in night mode", flag(loud.night));
-    page.number("volume_eased_db", "gauge", "Attenuation because the last minute was too loud, dB", loud.eased_db);
+    page.number(
+        "exposure_attenuation_db",
+        "gauge",
+        "Attenuation that keeps the exposure limit, dB",
+        loud.exposure_attenuation_db,
+    );
     for (i, span) in ["minute", "day"].iter().enumerate() {
         let help = "A-weighted mean level, dB of a full-scale sine";
         page.number(&format!("level_{span}_db"), "gauge", help, loud.level_db[i]);
@@ -125,15 +139,20 @@ fn self_test(page: &mut MetricsText, numbers: &MetricsInput) {
     let Some((verdict, _)) = &persisted.self_test.last else { return };
     let labels = Verdict::NAMES.map(|name| ([("verdict", name)], flag(name == verdict.name())));
     let rows: Vec<LabelledValue> = labels.iter().map(|(label, is)| (&label[..], *is)).collect();
-    page.labelled("chirp", "gauge", "Verdict of the last audio self-test, 1 for the one given", &rows);
-    page.number("chirp_bad", "gauge", "1 if the last audio self-test needs attention", flag(verdict.is_bad()));
+    page.labelled("audio_self_test", "gauge", "Verdict of the last audio self-test, 1 for the one given", &rows);
+    page.number(
+        "audio_self_test_bad",
+        "gauge",
+        "1 if the last audio self-test needs attention",
+        flag(verdict.is_bad()),
+    );
     let bands = BANDS.map(|hz| hz.to_string());
     let known =
         bands.iter().zip(persisted.self_test.change_db).filter_map(|(hz, db)| Some(([("hz", hz.as_str())], db?)));
     let labels: Vec<_> = known.collect();
     let rows: Vec<LabelledValue> = labels.iter().map(|(label, db)| (&label[..], *db)).collect();
     page.labelled(
-        "chirp_change_db",
+        "audio_self_test_change_db",
         "gauge",
         "Change of the last audio self-test from its reference, by octave, dB",
         &rows,

@@ -14,10 +14,10 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
-use crate::fleet::metrics::{Metrics, MetricsInput, text};
+use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
 use crate::fleet::mqtt::{Mqtt, Order};
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
-use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter};
+use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter, VisitorSigns};
 use crate::live::LiveState;
 use crate::venue::loudness::VolumeRequests;
 use crate::venue::self_test::SelfTestHistory;
@@ -50,6 +50,17 @@ pub struct WindowStatus<'a> {
     pub activity: u64,
     /// Wrong PINs in a row.
     pub wrong_pins: i32,
+}
+
+/// A moment by the clock on the wall.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LocalTime {
+    /// Its day.
+    pub today: Day,
+    /// The day before.
+    pub yesterday: Day,
+    /// Its time of day.
+    pub time: TimeOfDay,
 }
 
 /// Counters, persisted state and reports of this kiosk.
@@ -149,9 +160,9 @@ impl Fleet {
         let lived = now.duration_since(self.began);
         let (frame, load) = (seen.frame, &seen.frame.load);
         let blows = frame.current.breath.estimate.speed > 0.0;
-        let input = (seen.activity, blows);
+        let signs = VisitorSigns { inputs: seen.activity, blows };
         let counters = &mut self.persisted.counters;
-        if let Some(visit) = self.visits.record(lived.as_secs_f64(), input, seen.language, seen.site.attract.idle_s) {
+        if let Some(visit) = self.visits.record(lived.as_secs_f64(), signs, seen.language, seen.site.attract.idle_s) {
             counters.visits += 1;
             counters.dwell.record(DWELL_S, visit.seconds);
             *counters.languages.entry(visit.language).or_default() += 1;
@@ -162,7 +173,7 @@ impl Fleet {
             counters.blows.insert(name, before + count);
         }
         if lived >= SETTLED {
-            self.persisted.life = RunPhase::Settled;
+            self.persisted.phase = RunPhase::Settled;
         }
         self.persisted.on_show.clone_from(&frame.exhibit.id);
         // Before the first step the simulation does not know the settings of staff.
@@ -196,22 +207,18 @@ impl Fleet {
             safe: self.safe,
             reloads: self.reloads,
             foam_lasts: seen.site.maintenance.foam_blows,
-            content: (&frame.exhibit.id, version),
+            content: ContentVersion { exhibit: &frame.exhibit.id, version },
         };
         self.metrics.update(now, || text(frame, &numbers));
-        let (persisted, safe, visited) = (&self.persisted, self.safe, self.visits.in_progress());
-        self.mqtt.update(now, || state(seen, persisted, version, (safe, visited)));
+        let fleet =
+            FleetState { persisted: &self.persisted, version, safe: self.safe, visited: self.visits.in_progress() };
+        self.mqtt.update(now, || state(seen, &fleet));
     }
 
-    /// Is the daily self-test due at this time of `today`? For an hour it waits until the venue is closed or nobody is there;
-    /// then it is skipped for the day.
-    pub fn self_test_is_due(
-        &mut self,
-        at: Option<TimeOfDay>,
-        [today, yesterday]: [Day; 2],
-        time: TimeOfDay,
-        open: bool,
-    ) -> bool {
+    /// Is the daily self-test due now? `at`: its configured time; `None`: staff start it. For an hour it waits until the
+    /// venue is closed or nobody is there; then it is skipped for the day.
+    pub fn self_test_is_due(&mut self, at: Option<TimeOfDay>, now: LocalTime, open: bool) -> bool {
+        let LocalTime { today, yesterday, time } = now;
         let Some(late) = at.map(|at| time.since(at)).filter(|late| *late < SELF_TEST_WAITS_MIN) else { return false };
         // An hour that began before midnight belongs to the day before.
         let day = if late > time.since(TimeOfDay::from_minutes(0)) { yesterday } else { today };
@@ -222,10 +229,14 @@ impl Fleet {
         is
     }
 
-    /// Results of the self-test, for staff to change, and all breaths at the microphone.
-    pub fn self_test(&mut self) -> (&mut SelfTestHistory, u64) {
-        let breaths = self.persisted.counters.breaths();
-        (&mut self.persisted.self_test, breaths)
+    /// Results of the self-test, for staff to change.
+    pub fn self_test(&mut self) -> &mut SelfTestHistory {
+        &mut self.persisted.self_test
+    }
+
+    /// Number of breaths at the microphone in all runs.
+    pub fn breaths(&self) -> u64 {
+        self.persisted.counters.breaths()
     }
 
     /// The next command of the broker.
@@ -239,13 +250,20 @@ impl Fleet {
     }
 }
 
+/// What the fleet knows beside the window.
+struct FleetState<'a> {
+    persisted: &'a PersistedState,
+    /// Hash of the sidecar of the exhibit on show.
+    version: &'a str,
+    /// Does the kiosk run in safe mode?
+    safe: bool,
+    /// Is a visitor here?
+    visited: bool,
+}
+
 /// The state that is published to the broker.
-fn state(
-    seen: &WindowStatus,
-    persisted: &PersistedState,
-    version: &str,
-    (safe, visited): (bool, bool),
-) -> serde_json::Value {
+fn state(seen: &WindowStatus, fleet: &FleetState) -> serde_json::Value {
+    let FleetState { persisted, version, safe, visited } = *fleet;
     let (frame, load) = (seen.frame, &seen.frame.load);
     let is_open = |state: &DeviceState| matches!(state, DeviceState::Ok { .. });
     serde_json::json!({

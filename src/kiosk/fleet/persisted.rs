@@ -2,7 +2,7 @@
 //! holds counts and settings, and nothing about a person.
 //!
 //! A run after a crash restores the exhibit on show, the mute and blank state, and the count of wrong PINs. Crashes within a
-//! minute of the start are counted; after [`MOST_DEATHS`] of them in a row the next run is in safe mode.
+//! minute of the start are counted; after [`SAFE_MODE_AFTER`] of them in a row the next run is in safe mode.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,10 +18,10 @@ use crate::venue::self_test::SelfTestHistory;
 use crate::visitor::breath_time::BreathTime;
 use soffio_config::Config;
 
-/// Age from which a crash does not count as one of the start.
+/// Age of a run from which a crash does not count as one of the start.
 pub const SETTLED: Duration = Duration::from_secs(60);
-/// Crashes of the start in a row that lead to safe mode.
-pub const MOST_DEATHS: u32 = 3;
+/// Crashes of the start in a row that lead to safe mode. One may be chance; three are the file or the device.
+pub const SAFE_MODE_AFTER: u32 = 3;
 /// Least time between two writes.
 const EVERY: Duration = Duration::from_secs(1);
 /// Names of the state file, and of the copy of the last valid configuration beside it.
@@ -41,14 +41,16 @@ pub enum RunPhase {
     Settled,
 }
 
-/// The persisted state. Keys that an older file lacks have their defaults.
+/// The persisted state. Keys that an older file lacks have their defaults; each alias is the key of an older file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PersistedState {
     /// Phase of the run that wrote this.
-    pub life: RunPhase,
+    #[serde(alias = "life")]
+    pub phase: RunPhase,
     /// Crashes of the start in a row.
-    pub deaths: u32,
+    #[serde(alias = "deaths")]
+    pub start_crashes: u32,
     /// Runs so far.
     pub starts: u64,
     /// Id of the exhibit on show.
@@ -62,13 +64,13 @@ pub struct PersistedState {
     /// Wrong PINs in a row.
     pub wrong_pins: i32,
     /// Breath time of the day.
-    #[serde(rename = "given")]
+    #[serde(alias = "given")]
     pub breath_time: BreathTime,
     /// Results of the audio self-test, and the state of the foam.
-    #[serde(rename = "care")]
+    #[serde(alias = "care")]
     pub self_test: SelfTestHistory,
-    /// Counters over all runs.
-    #[serde(rename = "tally")]
+    /// Counters over all runs since the file was deleted.
+    #[serde(alias = "tally")]
     pub counters: Counters,
 }
 
@@ -96,16 +98,16 @@ impl Counters {
 impl PersistedState {
     /// Begins a run. Returns whether the one before it crashed.
     pub fn begin(&mut self) -> bool {
-        let died = self.life != RunPhase::Ended;
-        self.deaths = if self.life == RunPhase::Young { self.deaths.saturating_add(1) } else { 0 };
-        self.life = RunPhase::Young;
+        let crashed = self.phase != RunPhase::Ended;
+        self.start_crashes = if self.phase == RunPhase::Young { self.start_crashes.saturating_add(1) } else { 0 };
+        self.phase = RunPhase::Young;
         self.starts += 1;
-        died
+        crashed
     }
 
     /// Did too many runs crash at their start?
     pub fn wants_safe_mode(&self) -> bool {
-        self.deaths >= MOST_DEATHS
+        self.start_crashes >= SAFE_MODE_AFTER
     }
 }
 
@@ -184,7 +186,7 @@ impl StateStore {
 
     /// Writes that the run ended in order.
     pub fn end(&mut self, mut state: PersistedState) {
-        (state.life, state.deaths) = (RunPhase::Ended, 0);
+        (state.phase, state.start_crashes) = (RunPhase::Ended, 0);
         if let Some(writer) = self.writer.take() {
             writer.finish(text(&state));
         }
@@ -263,29 +265,29 @@ mod tests {
     }
 
     #[test]
-    fn three_deaths_in_the_first_minute_ask_for_safe_mode_and_a_life_or_an_orderly_end_forgets_them() {
+    fn three_crashes_in_the_first_minute_ask_for_safe_mode_and_a_long_run_or_an_orderly_end_forgets_them() {
         let mut state = PersistedState::default();
         assert!(!state.begin(), "the first run follows nobody");
-        for death in 1..=MOST_DEATHS {
+        for crash in 1..=SAFE_MODE_AFTER {
             assert!(state.begin());
-            assert_eq!((state.deaths, state.wants_safe_mode()), (death, death >= MOST_DEATHS));
+            assert_eq!((state.start_crashes, state.wants_safe_mode()), (crash, crash >= SAFE_MODE_AFTER));
         }
-        state.life = RunPhase::Settled;
-        assert!(state.begin() && state.deaths == 0, "a long life was no death of its start");
+        state.phase = RunPhase::Settled;
+        assert!(state.begin() && state.start_crashes == 0, "a long run was no crash of its start");
         state.begin();
-        state.life = RunPhase::Ended;
-        assert!(!state.begin() && state.deaths == 0 && state.starts == 7);
+        state.phase = RunPhase::Ended;
+        assert!(!state.begin() && state.start_crashes == 0 && state.starts == 7);
     }
 
     #[test]
-    fn what_is_kept_comes_back_and_what_is_broken_begins_anew() {
+    fn what_is_kept_comes_back_and_what_is_broken_starts_again() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("in/state");
         let (mut store, mut state) = StateStore::open(Some(path.clone()));
         assert_eq!(state, PersistedState::default());
         state.begin();
         store.begin(&state);
-        assert_eq!(StateStore::open(Some(path.clone())).1.life, RunPhase::Young, "at once");
+        assert_eq!(StateStore::open(Some(path.clone())).1.phase, RunPhase::Young, "at once");
         state.on_show = "clock".into();
         state.counters.blows.insert("hold".into(), 7);
         state.breath_time.add("clock", jiff::civil::Date::constant(2026, 1, 5), 12.5);
@@ -297,7 +299,7 @@ mod tests {
         let (_, read) = StateStore::open(Some(path.clone()));
         let breath_time = read.breath_time.of("clock");
         assert_eq!(
-            (read.life, read.wrong_pins, breath_time),
+            (read.phase, read.wrong_pins, breath_time),
             (RunPhase::Ended, 3, [0.0, 12.5]),
             "the visit itself is over"
         );
@@ -308,6 +310,31 @@ mod tests {
         assert_eq!(StateStore::open(Some(path.clone())).1, PersistedState { starts: 5, ..PersistedState::default() });
         std::fs::write(path.join(FILE), r#"{"starts": 5, "de"#).expect("writable");
         assert_eq!(StateStore::open(Some(path)).1, PersistedState::default());
+    }
+
+    #[test]
+    fn a_file_with_the_older_keys_is_read_and_written_with_the_present_ones() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let older = r#"{"life": "young", "deaths": 2, "starts": 5, "given": {"day": [["clock", 12.5]], "date": "2026-01-05"},
+            "care": {"foam_changed_at": 3, "clean_db": [[1, 2, 3, 4, 5, 6, 7]]}, "tally": {"visits": 4}}"#;
+        std::fs::write(folder.path().join(FILE), older).expect("writable");
+        let (mut store, state) = StateStore::open(Some(folder.path().into()));
+        assert_eq!((state.phase, state.start_crashes, state.starts), (RunPhase::Young, 2, 5));
+        assert_eq!((state.breath_time.of("clock"), state.counters.visits), ([0.0, 12.5], 4));
+        assert_eq!((state.self_test.foam_changed_at, state.self_test.reference_db.len()), (3, 1));
+        store.end(state);
+        let written = std::fs::read_to_string(folder.path().join(FILE)).expect("readable");
+        for (old, new) in [
+            ("life", "phase"),
+            ("deaths", "start_crashes"),
+            ("given", "breath_time"),
+            ("care", "self_test"),
+            ("clean_db", "reference_db"),
+            ("tally", "counters"),
+        ] {
+            let has = |key: &str| written.contains(&format!("\"{key}\":"));
+            assert!(has(new) && !has(old), "{old}, {new}: {written}");
+        }
     }
 
     #[test]

@@ -41,6 +41,15 @@ pub struct VisitCounter {
     language: String,
 }
 
+/// Signs of a visitor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VisitorSigns {
+    /// Number of inputs so far.
+    pub inputs: u64,
+    /// Does somebody blow?
+    pub blows: bool,
+}
+
 /// A finished visit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FinishedVisit {
@@ -51,15 +60,9 @@ pub struct FinishedVisit {
 }
 
 impl VisitCounter {
-    /// At `time`, s, with the count of inputs so far and whether somebody blows. Returns a visit that has ended, `idle_s`
-    /// after its last input.
-    pub fn record(
-        &mut self,
-        time: f64,
-        (inputs, blows): (u64, bool),
-        language: &str,
-        idle_s: f64,
-    ) -> Option<FinishedVisit> {
+    /// Records the signs of a visitor at `time`, s. Returns a visit that has ended: `idle_s`, s, after its last sign.
+    pub fn record(&mut self, time: f64, signs: VisitorSigns, language: &str, idle_s: f64) -> Option<FinishedVisit> {
+        let VisitorSigns { inputs, blows } = signs;
         if inputs != self.activity || blows {
             self.activity = inputs;
             self.running = Some((self.running.map_or(time, |(began, _)| began), time));
@@ -89,8 +92,8 @@ mod tests {
             // Somebody presses at 10, blows at 15 to 20, presses at 70 after leaving for 50 s, and never again.
             let inputs = u64::from(second >= 10) + u64::from(second >= 70);
             let language = if second < 60 { "en" } else { "it" };
-            let seen = (inputs, (15..=20).contains(&second));
-            finished.extend(visits.record(f64::from(second), seen, language, 30.0));
+            let signs = VisitorSigns { inputs, blows: (15..=20).contains(&second) };
+            finished.extend(visits.record(f64::from(second), signs, language, 30.0));
             assert_eq!(visits.in_progress(), (10..50).contains(&second) || (70..100).contains(&second), "{second}");
         }
         let visit = |seconds, language: &str| FinishedVisit { seconds, language: language.into() };

@@ -60,6 +60,9 @@ impl Writer {
 }
 
 /// Writes a file that survives a loss of power.
+///
+/// # Errors
+/// The file cannot be written; the old one stays.
 pub fn write(path: &Path, text: &str) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
     file.write_all(text.as_bytes())?;

@@ -27,7 +27,7 @@ use recording::Recording;
 use shared::{Shared, local_time, lock, trace_error};
 use soffio_offline::trace::{DEFAULT_FPS, TraceWriter};
 use soffio_simulation::Settings;
-use thread::Thread;
+use thread::{Files, Thread};
 
 /// A running simulation.
 pub struct Live {
@@ -38,6 +38,9 @@ pub struct Live {
 impl Live {
     /// Starts the thread, for a picture of this aspect (width over height). `wake` is called in the step in which an idle
     /// picture begins to move.
+    ///
+    /// # Errors
+    /// The thread, a record or a trace cannot be started; the reason.
     pub fn start(options: Options, aspect: f64, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
         let site = &options.site;
         let settings = Settings { clock: local_time(), ..site.settings };
@@ -59,9 +62,10 @@ impl Live {
             stop: AtomicBool::new(false),
         });
         let theirs = shared.clone();
+        let files = Files { trace, record };
         let thread = std::thread::Builder::new()
             .name("soffio-sim".into())
-            .spawn(move || Thread::new(stage, (trace, record), options, (theirs, Box::new(wake))).run())
+            .spawn(move || Thread::new(stage, files, options, theirs, Box::new(wake)).run())
             .map_err(|error| format!("the simulation thread does not start: {error}"))?;
         Ok(Self { shared, thread: Some(thread) })
     }
@@ -87,6 +91,9 @@ impl Live {
     }
 
     /// Ends the run and waits for its files.
+    ///
+    /// # Errors
+    /// A file cannot be completed, or the thread has failed; the reason.
     pub fn finish(mut self) -> Result<Report, String> {
         self.join().unwrap_or_else(|| Ok(Report::default()))
     }

@@ -23,6 +23,9 @@ pub struct Recording {
 
 impl Recording {
     /// Begins a record that will be at `path`. The error says why the file cannot be created.
+    ///
+    /// # Errors
+    /// The file cannot be created; the reason.
     pub fn create(path: &Path) -> Result<Self, String> {
         let file = File::create(growing(path)).map_err(|error| {
             format!("cannot write the record {}: {error}; check the folder and its permissions", path.display())

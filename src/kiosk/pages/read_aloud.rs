@@ -85,7 +85,7 @@ impl ReadAloud {
             None => speech_text::exhibit(scene),
             Some(button) => speech_text::button(button, scene),
         };
-        texts.retain(|(_, language)| synthesizer.can_speak(language));
+        texts.retain(|said| synthesizer.can_speak(&said.language));
         self.pending = Some(synthesizer.start(texts, sample_rate));
         self.announces_focus = true;
     }

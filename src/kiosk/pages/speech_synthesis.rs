@@ -13,6 +13,7 @@ use std::time::Duration;
 
 use soffio_fourier::{real_forward, real_inverse};
 
+use crate::pages::speech_text::SpokenText;
 use soffio_devices::audio::{LOUDEST, Utterance};
 use soffio_math::db_to_amplitude;
 
@@ -67,8 +68,8 @@ impl SpeechSynthesizer {
         !SPELLED_ONLY.contains(&base) && self.languages.iter().any(speaks)
     }
 
-    /// Starts to synthesize texts with their languages, for an output with this sample rate, Hz.
-    pub fn start(&self, texts: Vec<(String, String)>, sample_rate: u32) -> PendingSpeech {
+    /// Starts to synthesize texts one after the other as one sound, for an output with this sample rate, Hz.
+    pub fn start(&self, texts: Vec<SpokenText>, sample_rate: u32) -> PendingSpeech {
         let (sender, receiver) = channel();
         let program = self.program.clone();
         let run = move || {
@@ -100,9 +101,9 @@ fn base_language(language: &str) -> &str {
 }
 
 /// Synthesizes texts one after the other as one sound.
-fn synthesize(program: &str, texts: &[(String, String)], sample_rate: u32) -> Result<Utterance, String> {
+fn synthesize(program: &str, texts: &[SpokenText], sample_rate: u32) -> Result<Utterance, String> {
     let mut all = Vec::new();
-    for (text, language) in texts.iter().filter(|(text, _)| !text.trim().is_empty()) {
+    for SpokenText { text, language } in texts.iter().filter(|said| !said.text.trim().is_empty()) {
         let (samples, rate) = parse(&run_program(program, base_language(language), text)?)?;
         all.extend(resample(&samples, rate, sample_rate));
     }

@@ -4,11 +4,17 @@ use crate::pages::overlay::Scene;
 use crate::pages::ui_strings::TextId;
 use crate::visitor::input::Request;
 
-/// A text and its language code.
-pub type Utterance = (String, String);
+/// A text to be read aloud.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SpokenText {
+    /// The text, in sentences.
+    pub text: String,
+    /// Code of its language, such as `de` or `pt-BR`.
+    pub language: String,
+}
 
 /// The exhibit: title, maker, description, wall text, how to play, and rights.
-pub fn exhibit(scene: &Scene) -> Vec<Utterance> {
+pub fn exhibit(scene: &Scene) -> Vec<SpokenText> {
     let texts = scene.texts();
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return Vec::new() };
     let invite =
@@ -29,11 +35,11 @@ pub fn exhibit(scene: &Scene) -> Vec<Utterance> {
         privacy,
         &scene.exhibit.credit.notice,
     ];
-    vec![(sentences(parts), scene.language.to_owned())]
+    vec![SpokenText { text: sentences(parts), language: scene.language.to_owned() }]
 }
 
 /// The name of a button and, for a switch, its state.
-pub fn button(request: Request, scene: &Scene) -> Vec<Utterance> {
+pub fn button(request: Request, scene: &Scene) -> Vec<SpokenText> {
     let texts = scene.texts();
     let settings = scene.accessibility;
     let name = |id| texts.get(id).to_owned();
@@ -54,11 +60,11 @@ pub fn button(request: Request, scene: &Scene) -> Vec<Utterance> {
         // A language is announced by its own name, in its own voice.
         Request::Language(index) => {
             let code = scene.languages.get(index).cloned().unwrap_or_default();
-            return vec![(scene.translations.language_name(&code).to_owned(), code)];
+            return vec![SpokenText { text: scene.translations.language_name(&code).to_owned(), language: code }];
         }
         _ => String::new(),
     };
-    vec![(text, scene.language.to_owned())]
+    vec![SpokenText { text, language: scene.language.to_owned() }]
 }
 
 /// Joins texts as sentences, so that the voice pauses after each.

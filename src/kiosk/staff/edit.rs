@@ -41,7 +41,10 @@ pub struct Number {
     pub whole: bool,
 }
 
-/// All numbers of a sidecar that a curator may change, in the order of the file. The error is a syntax error.
+/// All numbers of a sidecar, `text` in TOML, that a curator may change, in the order of the file.
+///
+/// # Errors
+/// The text is no TOML; the parser's message.
 pub fn numbers(text: &str) -> Result<Vec<Number>, String> {
     let document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     let mut found = Vec::new();
@@ -72,22 +75,32 @@ fn item_numbers(item: &Item, place: &mut Vec<Step>, found: &mut Vec<Number>) {
             place.pop();
         }
     } else if !matches!(place.last(), Some(Step::Key(name)) if NAMES.contains(&name.as_str()))
-        && let Some((value, unit, whole)) = item.as_value().and_then(number)
+        && let Some(WrittenNumber { value, unit, whole }) = item.as_value().and_then(number)
     {
         found.push(Number { place: place.clone(), of: String::new(), name: String::new(), value, unit, whole });
     }
 }
 
-/// Number, unit, and whether it is whole.
-fn number(value: &Value) -> Option<(f64, String, bool)> {
+/// A number as it is written in the file.
+struct WrittenNumber {
+    value: f64,
+    /// Empty for a bare number.
+    unit: String,
+    /// Is it written as an integer?
+    whole: bool,
+}
+
+/// The finite number that a value is, with its unit.
+fn number(value: &Value) -> Option<WrittenNumber> {
+    let bare = |value, whole| WrittenNumber { value, unit: String::new(), whole };
     match value {
-        Value::Integer(value) => Some((*value.value() as f64, String::new(), true)),
-        Value::Float(value) => Some((*value.value(), String::new(), false)).filter(|(value, ..)| value.is_finite()),
+        Value::Integer(value) => Some(bare(*value.value() as f64, true)),
+        Value::Float(value) => Some(bare(*value.value(), false)).filter(|number| number.value.is_finite()),
         Value::String(text) => {
             let (number, unit) = text.value().trim().split_once(' ')?;
             let value: f64 = number.parse().ok().filter(|value: &f64| value.is_finite())?;
             let known = unit.chars().all(|c| c.is_alphanumeric() || "/% ²³".contains(c));
-            known.then(|| (value, unit.trim().to_owned(), false))
+            known.then(|| WrittenNumber { value, unit: unit.trim().to_owned(), whole: false })
         }
         _ => None,
     }
@@ -127,11 +140,16 @@ fn called(document: &Table, place: &[Step]) -> (String, String) {
     (of, rest.collect::<Vec<_>>().join("."))
 }
 
-/// The text with another number at this place, rounded to four digits.
+/// The text with `value` at this place, rounded to four digits, in the unit that stands there.
+///
+/// # Errors
+/// The text is no TOML, or has no number at this place.
 pub fn with_number(text: &str, place: &[Step], value: f64) -> Result<String, String> {
     let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| error.to_string())?;
     let old = value_at(document.as_table_mut(), place).ok_or("the number is not in the file any more")?;
-    let Some((_, unit, whole)) = number(old) else { return Err("the value is no number any more".into()) };
+    let Some(WrittenNumber { unit, whole, .. }) = number(old) else {
+        return Err("the value is no number any more".into());
+    };
     let value = four_digits(value);
     let new = match unit.as_str() {
         "" if whole => Value::Integer(Formatted::new(value.round() as i64)),
@@ -147,12 +165,18 @@ pub fn four_digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
-/// The text with another number at a key of a table; missing tables and keys are added.
+/// The text with `value`, rounded to four digits, at a key of a table. A missing table or key is added.
+///
+/// # Errors
+/// The text is no TOML, or `table` is not a table.
 pub fn with_key(text: &str, table: &str, key: &str, value: f64) -> Result<String, String> {
     with_value(text, table, key, |_| Value::Float(Formatted::new(four_digits(value))))
 }
 
 /// The text with another list of strings at a key of a table. Remaining entries keep their comments.
+///
+/// # Errors
+/// The text is no TOML, or `table` is not a table.
 pub fn with_list(text: &str, table: &str, key: &str, entries: &[String]) -> Result<String, String> {
     with_value(text, table, key, |old| {
         let old = old.and_then(Value::as_array).cloned().unwrap_or_default();
@@ -225,7 +249,10 @@ pub struct Changes {
 }
 
 impl Changes {
-    /// Changes a file as it stands now. The error names it and says why.
+    /// Changes a file as it stands now and keeps the old text for [`Self::undo`].
+    ///
+    /// # Errors
+    /// The file cannot be read, changed or written; the message names it.
     pub fn make(&mut self, file: &Path, change: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
         let says = |why: String| format!("{}: {why}", file.display());
         let before = std::fs::read_to_string(file).map_err(|error| says(error.to_string()))?;
@@ -245,7 +272,10 @@ impl Changes {
         self.done.len()
     }
 
-    /// Undoes the last change. A file that was changed otherwise since then is left alone, with an error.
+    /// Undoes the last change.
+    ///
+    /// # Errors
+    /// The file has changed since, or cannot be written.
     pub fn undo(&mut self) -> Result<(), String> {
         let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
         let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;

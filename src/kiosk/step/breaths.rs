@@ -58,6 +58,15 @@ impl BreathCounts {
     }
 }
 
+/// Devices besides the microphone that make a breath.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BreathDevices {
+    /// Does a held key or press blow?
+    pub hold: bool,
+    /// Strength of a controller, 0 … 1.
+    pub strength: f64,
+}
+
 /// Detects from step to step where a breath begins and ends.
 #[derive(Clone, Debug, Default)]
 pub struct BreathLog {
@@ -66,15 +75,15 @@ pub struct BreathLog {
 }
 
 impl BreathLog {
-    /// Records a step: `hold` says whether a key or press blows, `strength` is that of a controller, 0 … 1. Returns the
-    /// breaths that begin or end.
+    /// Records a step; `attracts` says whether attract mode plays. Returns the breaths that begin or end.
     pub fn record(
         &mut self,
         step: u64,
         breath: &BreathView,
-        (hold, strength): (bool, f64),
+        devices: BreathDevices,
         attracts: bool,
     ) -> impl Iterator<Item = BreathEvent> {
+        let BreathDevices { hold, strength } = devices;
         let from_microphone = breath.estimate.speed;
         let turns = std::array::from_fn::<_, { SOURCES.len() }, _>(|i| {
             let lasts = self.running[i].is_some();
@@ -140,8 +149,9 @@ mod tests {
     #[test]
     fn each_source_begins_and_ends_by_itself() {
         let mut breaths = BreathLog::default();
-        let mut turns =
-            |step, view: BreathView, hold| breaths.record(step, &view, (hold, 0.0), false).collect::<Vec<_>>();
+        let mut turns = |step, view: BreathView, hold| {
+            breaths.record(step, &view, BreathDevices { hold, strength: 0.0 }, false).collect::<Vec<_>>()
+        };
         assert_eq!(turns(0, view(0.0, 0.0), false), []);
         assert_eq!(turns(1, view(9.0, 0.0), true), [BreathEvent::Begins(BreathSource::Hold, 9.0)]);
         // The microphone answers in the middle of the hold.
@@ -156,10 +166,10 @@ mod tests {
     #[test]
     fn the_script_is_no_visitor() {
         let mut breaths = BreathLog::default();
-        let begins: Vec<_> = breaths.record(0, &view(3.0, 0.0), (false, 0.0), true).collect();
+        let begins: Vec<_> = breaths.record(0, &view(3.0, 0.0), BreathDevices::default(), true).collect();
         assert_eq!(begins, [BreathEvent::Begins(BreathSource::Script, 3.0)]);
         // A visitor's breath ends the show within the step.
-        let both: Vec<_> = breaths.record(1, &view(4.0, 4.0), (false, 0.0), false).collect();
+        let both: Vec<_> = breaths.record(1, &view(4.0, 4.0), BreathDevices::default(), false).collect();
         assert_eq!(both[0], BreathEvent::Begins(BreathSource::Microphone, 4.0));
         assert!(matches!(both[1], BreathEvent::Ends { source: BreathSource::Script, .. }), "{both:?}");
     }

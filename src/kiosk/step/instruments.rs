@@ -50,14 +50,15 @@ pub struct AuditionInstrument {
 }
 
 impl AuditionInstrument {
-    /// A shipped timbre on its specimen.
+    /// The shipped timbre of this name on its specimen; `None` where there is none.
     pub fn new(name: &'static str) -> Option<Self> {
         let preset = preset(name)?;
         let slides = preset.slides();
         Some(Self { name, specimen: preset.specimen, slides })
     }
 
-    /// Commands that play it from `sample` on, as the instrument after those of the exhibit.
+    /// Commands for the synth that play `audition` from the sample with number `sample` on. `instrument` is its index in the
+    /// synth, after those of the exhibit.
     pub fn play(&self, instrument: u16, audition: &Audition, sample: u64) -> Vec<SoundCommand> {
         let s = &self.specimen;
         let position = [s.at as f32, s.at_y as f32];

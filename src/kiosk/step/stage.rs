@@ -226,7 +226,7 @@ impl Stage {
         }
     }
 
-    /// Inspects the present state.
+    /// Present values of the simulation for the staff panel, as far as `look` asks for them.
     pub fn inspect(&mut self, look: InspectionScope) -> Inspection {
         self.simulation.inspect(look)
     }
@@ -256,7 +256,7 @@ impl Stage {
         self.simulation.exhibit()
     }
 
-    /// Inputs of the last step, for a record; the breath is in the snapshot's speed.
+    /// Inputs of the last step, as a record stores them. Of the breath, a record stores the speed in the snapshot instead.
     pub fn recorded_input(&self) -> StepInput<'_> {
         let RecordedInput { pointer, aspect, turn, mode, ref commands } = self.recorded;
         StepInput {

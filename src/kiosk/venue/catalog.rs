@@ -104,7 +104,8 @@ impl CatalogLoader {
         Self { events, requests, _watcher: watcher.and_then(Result::ok) }
     }
 
-    /// Requests the exhibit of a folder: [`CatalogEvent::Show`] or [`CatalogEvent::Failed`] follows.
+    /// Requests that the exhibit of a folder is loaded and shown. It returns at once; [`CatalogEvent::Show`] or
+    /// [`CatalogEvent::Failed`] follows.
     pub fn show(&self, folder: &Path) {
         // The worker lives as long as this value does; if it died, the picture stays as it is.
         let _ = self.requests.send(CatalogRequest::Show(folder.to_path_buf()));

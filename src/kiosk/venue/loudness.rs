@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use jiff::Zoned;
 
 use soffio_config::{Hours, TimeOfDay};
-use soffio_devices::audio::Knobs;
+use soffio_devices::audio::{Knobs, PlayedEnergy};
 use soffio_math::db_to_amplitude;
 use soffio_sound::{Exposure, Volume, VolumeSettings};
 
@@ -89,12 +89,41 @@ pub struct LoudnessStatus {
     pub night: bool,
     /// What decides it.
     pub by: NightBy,
-    /// Attenuation because the last minute was too loud, dB.
-    pub eased_db: f64,
+    /// Attenuation that keeps the exposure limit, dB: above 0 after a minute that was too loud.
+    pub exposure_attenuation_db: f64,
     /// A-weighted level of the last minute and of the day, dB of a full-scale sine; −∞ for silence.
     pub level_db: [f64; 2],
     /// The same at the listening position, dB(A), where the kiosk is calibrated.
     pub laeq_db: [Option<f64>; 2],
+}
+
+/// Settings of the loudness, from the site's configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoudnessSettings {
+    /// Volume, its steps, and the exposure limit.
+    pub volume: VolumeSettings,
+    /// Hours of night mode.
+    pub night: Hours,
+    /// Does attract mode play without a sound?
+    pub silent_attract: bool,
+}
+
+/// What the kiosk does now, as far as it changes the volume.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct KioskActivity {
+    /// Does attract mode play?
+    pub attracts: bool,
+    /// Is the venue closed? Then the kiosk is silent.
+    pub closed: bool,
+}
+
+/// Whether the output still counts from where it began.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputCount {
+    /// It counts on.
+    Continued,
+    /// It was opened again and counts from zero.
+    Restarted,
 }
 
 /// Loudness control of the kiosk.
@@ -105,43 +134,45 @@ pub struct Loudness {
     by: NightBy,
     night: bool,
     silent_attract: bool,
-    attracts: bool,
-    closed: bool,
+    activity: KioskActivity,
     looked: Option<Instant>,
-    /// Energy and time at the last update.
-    before: (f64, f64),
+    /// What the output had played at the last update.
+    before: PlayedEnergy,
 }
 
 impl Loudness {
     /// The state that every visitor finds.
-    pub fn new(volume: VolumeSettings, hours: Hours, silent_attract: bool) -> Self {
+    pub fn new(settings: LoudnessSettings) -> Self {
+        let LoudnessSettings { volume, night, silent_attract } = settings;
         Self {
             volume: Volume::new(volume),
             exposure: Exposure::default(),
-            hours,
+            hours: night,
             by: NightBy::Hours,
             night: false,
             silent_attract,
-            attracts: false,
-            closed: false,
+            activity: KioskActivity::default(),
             looked: None,
-            before: (0.0, 0.0),
+            before: PlayedEnergy::default(),
         }
     }
 
-    /// Takes over changed settings. The measured exposure is kept; `restarted` says that the output counts from zero again.
-    pub fn reconfigure(&mut self, volume: VolumeSettings, hours: Hours, silent_attract: bool, restarted: bool) {
+    /// Takes over changed settings. The measured exposure is kept, and so is the mute of staff.
+    pub fn reconfigure(&mut self, settings: LoudnessSettings, output: OutputCount) {
         let (by, exposure) = (self.by, std::mem::take(&mut self.exposure));
-        let before = if restarted { (0.0, 0.0) } else { self.before };
+        let before = match output {
+            OutputCount::Continued => self.before,
+            OutputCount::Restarted => PlayedEnergy::default(),
+        };
         let mut former = self.volume.clone();
-        former.reconfigure(volume);
-        *self = Self { volume: former, by, exposure, before, ..Self::new(volume, hours, silent_attract) };
+        former.reconfigure(settings.volume);
+        *self = Self { volume: former, by, exposure, before, ..Self::new(settings) };
     }
 
-    /// Applies the requests and sets the volume; it is silent while the venue is `closed`.
-    pub fn update(&mut self, requests: VolumeRequests, (attracts, closed): (bool, bool), knobs: &Knobs) {
-        let requested = requests != VolumeRequests::default() || attracts != self.attracts || closed != self.closed;
-        self.closed = closed;
+    /// Applies the requests and sets volume and night mode of the output.
+    pub fn update(&mut self, requests: VolumeRequests, activity: KioskActivity, knobs: &Knobs) {
+        let requested = requests != VolumeRequests::default() || activity != self.activity;
+        self.activity = activity;
         let due = self.looked.is_none_or(|at| at.elapsed() >= UPDATE_INTERVAL);
         if !(requested || due) {
             return;
@@ -156,9 +187,8 @@ impl Loudness {
         if requests.leaves {
             self.volume.reset();
         }
-        self.attracts = attracts;
         self.look(due, knobs);
-        let silent = closed || self.volume.is_muted() || attracts && self.silent_attract;
+        let silent = activity.closed || self.volume.is_muted() || activity.attracts && self.silent_attract;
         knobs.set_volume(if silent { 0.0 } else { db_to_amplitude(self.volume.db()) as f32 });
         knobs.set_night(self.night);
     }
@@ -184,13 +214,13 @@ impl Loudness {
             return;
         }
         self.looked = Some(Instant::now());
-        let (energy, seconds) = knobs.played();
-        let passed = seconds - self.before.1;
+        let played = knobs.played();
+        let passed = played.seconds - self.before.seconds;
         if passed > 0.0 {
             let day = 366 * u64::from(now.year().unsigned_abs()) + u64::from(now.day_of_year().unsigned_abs());
-            self.exposure.note((energy - self.before.0) / passed, passed, day);
+            self.exposure.note((played.energy - self.before.energy) / passed, passed, day);
             self.volume.apply_exposure_limit(self.exposure.minute(), passed);
-            self.before = (energy, seconds);
+            self.before = played;
         }
     }
 
@@ -203,7 +233,7 @@ impl Loudness {
             muted: self.volume.is_muted(),
             night: self.night,
             by: self.by,
-            eased_db: self.volume.attenuation_db(),
+            exposure_attenuation_db: self.volume.attenuation_db(),
             level_db,
             laeq_db: level_db.map(|level| self.volume.spl(level)),
         }
@@ -214,17 +244,22 @@ impl Loudness {
 mod tests {
     use super::*;
 
+    /// Settings with this volume, dB.
+    fn settings(default_db: f64) -> LoudnessSettings {
+        let volume = VolumeSettings { default_db, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
+        LoudnessSettings { volume, night: Hours::default(), silent_attract: false }
+    }
+
     #[test]
     fn a_staff_mute_outlasts_a_changed_configuration_and_a_visitors_steps_go_with_the_visitor() {
-        let settings =
-            VolumeSettings { default_db: -6.0, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
         let knobs = Knobs::new(1.0);
-        let mut loudness = Loudness::new(settings, Hours::default(), false);
-        let update = |loudness: &mut Loudness, requests| loudness.update(requests, (false, false), &knobs);
+        let mut loudness = Loudness::new(settings(-6.0));
+        let update = |loudness: &mut Loudness, requests| loudness.update(requests, KioskActivity::default(), &knobs);
         update(&mut loudness, VolumeRequests { louder: 2, mutes: 1, ..VolumeRequests::default() });
         assert!(loudness.status().muted && loudness.status().steps == 2);
 
-        loudness.reconfigure(VolumeSettings { default_db: -9.0, ..settings }, Hours::default(), true, false);
+        let silent = LoudnessSettings { silent_attract: true, ..settings(-9.0) };
+        loudness.reconfigure(silent, OutputCount::Continued);
         update(&mut loudness, VolumeRequests { louder: 1, ..VolumeRequests::default() });
         assert!(loudness.status().muted, "nobody has unmuted it");
         assert_eq!(
@@ -247,12 +282,10 @@ mod tests {
         requests.add(press);
         assert_eq!(requests, VolumeRequests { muted: Some(true), mutes: 1, louder: 2, ..VolumeRequests::default() });
 
-        let settings =
-            VolumeSettings { default_db: -6.0, step_db: 3.0, steps: 3, full_scale_db_spl: None, max_laeq_db: 70.0 };
         let knobs = Knobs::new(1.0);
-        let mut loudness = Loudness::new(settings, Hours::default(), false);
+        let mut loudness = Loudness::new(settings(-6.0));
         let mut update = |requests| {
-            loudness.update(requests, (false, false), &knobs);
+            loudness.update(requests, KioskActivity::default(), &knobs);
             loudness.status().muted
         };
         assert!(update(order(true)) && update(order(true)), "ordered twice it stays muted");

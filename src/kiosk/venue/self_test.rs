@@ -103,14 +103,15 @@ impl std::fmt::Display for Verdict {
     }
 }
 
-/// Persisted results of self-tests, and the state of the foam.
+/// Results of the audio self-tests and state of the microphone's foam, as they outlast a restart in `state.json`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SelfTestHistory {
-    /// Breaths at the microphone, of all runs, when the foam was changed last.
+    /// Number of breaths at the microphone in all runs until the foam was changed last.
     pub foam_changed_at: u64,
     /// Levels of the reference runs, dB.
-    pub clean_db: Vec<[f64; OCTAVES]>,
+    #[serde(alias = "clean_db")]
+    pub reference_db: Vec<[f64; OCTAVES]>,
     /// Change of the last run from the mean of the reference, dB; unknown octaves are empty.
     pub change_db: [Option<f64>; OCTAVES],
     /// Last verdict, with its local day and time.
@@ -131,7 +132,7 @@ impl SelfTestHistory {
 
     /// Drops the reference: the next runs make a new one.
     pub fn forget_reference(&mut self) {
-        (self.clean_db, self.change_db) = (Vec::new(), [None; OCTAVES]);
+        (self.reference_db, self.change_db) = (Vec::new(), [None; OCTAVES]);
     }
 
     /// Records the outcome of a run at this local day and time; returns its verdict.
@@ -148,7 +149,7 @@ impl SelfTestHistory {
         if response.dead {
             return Verdict::DeadMicrophone;
         }
-        if self.clean_db.len() < REFERENCE_RUNS {
+        if self.reference_db.len() < REFERENCE_RUNS {
             return self.learn(response);
         }
         let usual = self.usual();
@@ -190,16 +191,17 @@ impl SelfTestHistory {
             clean.iter().zip(&response.levels_db).map(|(a, b)| (a - b).abs()).sum::<f64>() / OCTAVES as f64
         };
         // A gain was changed meanwhile: the older runs do not describe the present.
-        if self.clean_db.iter().any(|clean| apart(clean) > AGREE_DB) {
-            self.clean_db.clear();
+        if self.reference_db.iter().any(|clean| apart(clean) > AGREE_DB) {
+            self.reference_db.clear();
         }
-        self.clean_db.push(response.levels_db);
-        Verdict::Learns(self.clean_db.len())
+        self.reference_db.push(response.levels_db);
+        Verdict::Learns(self.reference_db.len())
     }
 
     /// Mean of the reference, dB.
     fn usual(&self) -> [f64; OCTAVES] {
-        let mean = |b: usize| self.clean_db.iter().map(|clean| clean[b]).sum::<f64>() / self.clean_db.len() as f64;
+        let mean =
+            |b: usize| self.reference_db.iter().map(|clean| clean[b]).sum::<f64>() / self.reference_db.len() as f64;
         std::array::from_fn(mean)
     }
 }

@@ -15,6 +15,15 @@ pub struct OverlayCapture {
     pub pointer: bool,
 }
 
+/// Where a signal goes besides the visitor.
+#[derive(Clone, Copy, Debug)]
+pub struct SignalContext<'a> {
+    /// Keys of the site's configuration.
+    pub keys: Keys<'a>,
+    /// What an open panel takes.
+    pub captured: OverlayCapture,
+}
+
 /// State of the venue.
 #[derive(Clone, Debug)]
 pub struct VenueState {
@@ -89,9 +98,10 @@ impl VenueState {
         time: f64,
         visitor: &mut Visitor,
         signal: &Signal,
-        (keys, captured): (Keys, OverlayCapture),
+        context: SignalContext,
         windowed: bool,
     ) -> Option<Request> {
+        let SignalContext { keys, captured } = context;
         if self.cleaning_left(time).is_some() {
             return None;
         }

@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_visit_and_a_day_are_counted_apart_and_begin_anew() {
+    fn a_visit_and_a_day_are_counted_apart_and_start_again() {
         let (monday, tuesday) = (Date::constant(2026, 1, 5), Date::constant(2026, 1, 6));
         let mut breath_time = BreathTime::default();
         (0..20).for_each(|_| breath_time.add("clock", monday, 1.0));

@@ -7,7 +7,7 @@
 //! Invariant: everything that is held is released at the latest when the window loses the focus.
 
 use crate::visitor::gesture::{Lift, Press};
-use soffio_config::Chord;
+use soffio_config::{Chord, Modifiers};
 
 /// Distance that a pointer must move before it aims, picture heights or widths.
 const FIRST_MOVE: f64 = 0.01;
@@ -57,12 +57,8 @@ pub struct Key {
     pub pressed: bool,
     /// Down again and again because it is held.
     pub repeat: bool,
-    /// Control held.
-    pub ctrl: bool,
-    /// Alt held.
-    pub alt: bool,
-    /// Shift held.
-    pub shift: bool,
+    /// The modifiers held with it.
+    pub modifiers: Modifiers,
 }
 
 /// A request to the kiosk, besides aim and blow.
@@ -173,7 +169,7 @@ impl Keys<'_> {
             (self.mute, Request::Mute),
             (self.night, Request::Night),
         ];
-        let pressed = |chord: &Chord| chord.matches(key.ctrl, key.alt, key.shift, &key.name);
+        let pressed = |chord: &Chord| chord.matches(key.modifiers, &key.name);
         let new = key.pressed && !key.repeat;
         chords.into_iter().find(|(chord, _)| new && pressed(chord)).map(|(_, request)| request)
     }
@@ -318,7 +314,7 @@ impl Visitor {
     }
 
     fn key(&mut self, key: &Key, keys: Keys, windowed: bool) -> Option<Request> {
-        let plain = !(key.ctrl || key.alt);
+        let plain = !(key.modifiers.ctrl || key.modifiers.alt);
         // A released key ends the blow, whatever modifiers are held.
         if key.name == keys.blow && (plain || !key.pressed) {
             self.key = key.pressed && !keys.menu;
@@ -347,7 +343,7 @@ impl Visitor {
             name if plain && SOFTER.contains(&name) => Some(Request::Louder(-1)),
             name if plain && name == keys.read => Some(Request::ReadAloud),
             "L" if plain => Some(Request::NextLanguage),
-            "Tab" if !key.ctrl && !key.alt => Some(Request::Menu),
+            "Tab" if !key.modifiers.ctrl && !key.modifiers.alt => Some(Request::Menu),
             "PageDown" if plain => Some(Request::Page(1)),
             "PageUp" if plain => Some(Request::Page(-1)),
             "Escape" if windowed => Some(Request::Close),

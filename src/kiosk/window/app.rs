@@ -31,7 +31,7 @@ use crate::pages::ui_strings::Translations;
 use crate::step::command::KioskCommand;
 use crate::venue::catalog::ExhibitSource;
 use crate::venue::site::ConfigWatcher;
-use crate::venue::state::{OverlayCapture, VenueState};
+use crate::venue::state::{OverlayCapture, SignalContext, VenueState};
 
 /// Size of a window on a desk, pixels.
 const DESK_SIZE: PhysicalSize<u32> = PhysicalSize::new(1280, 720);
@@ -42,23 +42,37 @@ const UNASKED: Duration = Duration::from_secs(2);
 
 /// State that exists once there is a window.
 pub(super) struct WindowAndSimulation {
+    /// The window with its graphics device.
     pub screen: Screen,
+    /// The simulation thread.
     pub live: Live,
 }
 
 /// State of the window thread. Its methods are in the files beside this one, one for each concern.
 pub(super) struct App<'a> {
+    /// Configuration of this run.
     pub setup: Setup,
+    /// Start and end of the run.
     pub life: Lifecycle<'a>,
+    /// Window and simulation; `None` before there is a window.
     pub show: Option<WindowAndSimulation>,
+    /// State of the graphics.
     pub graphics: Graphics,
+    /// State of frame pacing.
     pub pacing: Pacing,
+    /// Pages and texts over the picture.
     pub overlays: Overlays,
+    /// Exhibits on offer.
     pub exhibits: ExhibitSelection,
+    /// State of the present visit.
     pub visit: VisitState,
+    /// Staff panel and log.
     pub desk: StaffDesk,
+    /// Opening, cleaning and blanking of the venue.
     pub venue: VenueState,
+    /// Counters, persisted state and reports.
     pub fleet: Fleet,
+    /// Keep-alive of systemd.
     #[cfg(target_os = "linux")]
     pub watchdog: Watchdog,
 }
@@ -69,7 +83,8 @@ impl<'a> App<'a> {
         ground: Launch,
         places: &ExhibitSource,
         options: Options,
-        (events, interrupted): (&EventLoop<()>, &'a AtomicBool),
+        events: &EventLoop<()>,
+        interrupted: &'a AtomicBool,
     ) -> Self {
         let display = Box::new(events.owned_display_handle());
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
@@ -207,7 +222,7 @@ impl ApplicationHandler for App<'_> {
             }
             None => {
                 let keys = self.setup.keys(self.overlays.menu.open);
-                self.venue.signal(time, &mut self.visit.visitor, &signal, (keys, above), desk)
+                self.venue.signal(time, &mut self.visit.visitor, &signal, SignalContext { keys, captured: above }, desk)
             }
         };
         self.stop_reading_on(&signal, request);

@@ -5,6 +5,7 @@ use winit::event::{ElementState, KeyEvent, MouseButton, TouchPhase, WindowEvent}
 use winit::keyboard::{ModifiersState, PhysicalKey};
 
 use crate::visitor::input::{Key, Phase, Signal};
+use soffio_config::Modifiers;
 
 /// The signal of a window event; `None` for other events.
 pub fn translate(event: &WindowEvent, size: PhysicalSize<u32>, modifiers: ModifiersState) -> Option<Signal> {
@@ -58,9 +59,7 @@ fn key(event: &KeyEvent, modifiers: ModifiersState) -> Option<Key> {
         name: short.unwrap_or(&name).to_owned(),
         pressed: event.state == ElementState::Pressed,
         repeat: event.repeat,
-        ctrl: modifiers.control_key(),
-        alt: modifiers.alt_key(),
-        shift: modifiers.shift_key(),
+        modifiers: Modifiers { ctrl: modifiers.control_key(), alt: modifiers.alt_key(), shift: modifiers.shift_key() },
     })
 }
 

@@ -1,6 +1,7 @@
 //! Handles events of the catalog, and changes exhibits in attract mode.
 
 use super::app::App;
+use super::parts::visit::Presence;
 use crate::live::LiveState;
 use crate::pages::menu::Menu;
 use crate::step::command::KioskCommand;
@@ -54,7 +55,8 @@ impl App<'_> {
     /// Resets everything when the visitor has left, with or without attract mode. After each round of attract mode the next
     /// exhibit is shown.
     pub(super) fn update_attract(&mut self, frame: &LiveState) {
-        if self.visit.ends(frame.attracts, self.fleet.is_visited(), &self.setup.config) {
+        let presence = Presence { attracts: frame.attracts, visited: self.fleet.is_visited() };
+        if self.visit.ends(presence, &self.setup.config) {
             self.request_volume(VolumeRequests { leaves: true, ..VolumeRequests::default() });
             self.overlays.languages.shown.clear();
             self.overlays.menu = Menu::default();

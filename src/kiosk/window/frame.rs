@@ -7,7 +7,7 @@ use winit::event_loop::ActiveEventLoop;
 use super::app::{App, WindowAndSimulation};
 use super::parts::exhibits::ExhibitSelection;
 use super::parts::overlays::Overlays;
-use super::parts::pacing::FrameStart;
+use super::parts::pacing::{FrameMotion, FrameStart};
 use super::parts::visit::VisitState;
 use super::quality_tiers::QualityController;
 use super::screen::Drawn;
@@ -28,12 +28,22 @@ const LONGEST_GIFT: f64 = 0.5;
 /// Time between two frames while the venue is closed, s.
 const CLOSED_S: f64 = 0.25;
 
+/// A frame that was drawn.
+struct Painted {
+    /// What became of it.
+    drawn: Drawn,
+    /// Actions of staff on the panel.
+    actions: Vec<StaffAction>,
+    /// The picture, points.
+    points: egui::Rect,
+}
+
 impl App<'_> {
     /// Draws a frame, and updates everything that changes once a frame.
     pub(super) fn draw(&mut self, events: &ActiveEventLoop) {
         let Some((frame, begun)) = self.begin_frame() else { return };
         let moment = self.moment(&frame, &begun);
-        let Some((drawn, actions, points)) = self.paint(&frame, &begun, &moment) else { return };
+        let Some(Painted { drawn, actions, points }) = self.paint(&frame, &begun, &moment) else { return };
         self.count(drawn, &frame, &begun, &moment);
         self.graphics.moment = moment;
         self.update_attract(&frame);
@@ -74,7 +84,7 @@ impl App<'_> {
         self.pacing.clock.pacer.set_refresh(show.screen.refresh());
         let frame = show.live.frame();
         let page_moves = self.overlays.overlay.is_animating() || panel;
-        let begun = self.pacing.begin(now, frame.still, page_moves, least);
+        let begun = self.pacing.begin(now, FrameMotion { still: frame.still, page_moves }, least);
         Some((frame, begun))
     }
 
@@ -96,14 +106,8 @@ impl App<'_> {
         moment
     }
 
-    /// Draws the exhibit, the pages over it and the staff panel. Returns the result, the actions of staff, and the size of the
-    /// picture in points.
-    fn paint(
-        &mut self,
-        frame: &LiveState,
-        begun: &FrameStart,
-        moment: &Snapshot,
-    ) -> Option<(Drawn, Vec<StaffAction>, egui::Rect)> {
+    /// Draws the exhibit, the pages over it and the staff panel. `None` without a window.
+    fn paint(&mut self, frame: &LiveState, begun: &FrameStart, moment: &Snapshot) -> Option<Painted> {
         let desk = self.setup.on_desk();
         let show = self.show.as_mut()?;
         let (adapter, _) = show.screen.adapter();
@@ -130,7 +134,7 @@ impl App<'_> {
         let drawn = show.screen.draw(&frame.exhibit, &view, moment, |ui| {
             points = ui.ctx().content_rect();
             let pages = Pages { frame, moment, view, time: vitals.time, points_per_mm: points_per_mm(ui.ctx()) };
-            self.overlays.paint(ui, &pages, (&mut self.exhibits, &self.visit), (config, &self.venue));
+            self.overlays.paint(ui, &pages, &mut self.exhibits, &self.visit, config, &self.venue);
             let input = PanelInput {
                 frame,
                 view,
@@ -150,7 +154,7 @@ impl App<'_> {
             };
             actions.extend(self.desk.panel.show(ui, &input));
         });
-        Some((drawn, actions, points))
+        Some(Painted { drawn, actions, points })
     }
 
     /// Counts a frame, and sends the keep-alive to systemd.
@@ -224,8 +228,10 @@ impl Overlays {
         &mut self,
         ui: &egui::Ui,
         picture: &Pages,
-        (exhibits, visit): (&mut ExhibitSelection, &VisitState),
-        (config, venue): (&Config, &VenueState),
+        exhibits: &mut ExhibitSelection,
+        visit: &VisitState,
+        config: &Config,
+        venue: &VenueState,
     ) {
         let Pages { frame, time, .. } = *picture;
         self.languages.offer(ui.ctx(), &frame.exhibit, config, &self.translations);

@@ -37,7 +37,7 @@ impl IdleRendering {
         self.is_idle
     }
 
-    /// May the next frame wait?
+    /// May the next frame wait for [`IDLE_FRAME_S`](crate::step::idle_detection::IDLE_FRAME_S), as nothing moves?
     pub fn is_idle(&self) -> bool {
         self.is_idle
     }

@@ -11,6 +11,9 @@ use crate::venue::catalog::ExhibitSource;
 
 /// Runs the kiosk until it is ended. Visitors choose among the exhibits of `places`. `interrupted` is set by a signal of the
 /// system.
+///
+/// # Errors
+/// There is no display, or no graphics adapter that can draw to its window.
 pub fn run(
     ground: Launch,
     places: &ExhibitSource,
@@ -18,13 +21,16 @@ pub fn run(
     interrupted: &AtomicBool,
 ) -> Result<Ended, Missing> {
     let events = event_loop().map_err(Missing::Display)?;
-    let mut app = App::new(ground, places, options, (&events, interrupted));
+    let mut app = App::new(ground, places, options, &events, interrupted);
     app.restore_state();
     let looped = events.run_app(&mut app).map_err(|error| error.to_string());
     app.end(looped)
 }
 
 /// The connection to the display; the error is the system's reason.
+///
+/// # Errors
+/// There is no display; the system's reason.
 pub fn event_loop() -> Result<EventLoop<()>, String> {
     EventLoop::new().map_err(|error| error.to_string().rsplit(": ").next().unwrap_or_default().to_owned())
 }

@@ -54,6 +54,9 @@ pub enum Drawn {
 
 impl Screen {
     /// Opens a graphics device for a window. The error says what is missing.
+    ///
+    /// # Errors
+    /// There is no adapter that can draw to the window, or the exhibit cannot be drawn; what is missing.
     pub fn new(instance: wgpu::Instance, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Self, String> {
         let surface = instance.create_surface(window.clone()).map_err(|error| error.to_string())?;
         let gpu = Gpu::for_surface(instance, &surface).map_err(|error| error.to_string())?;
@@ -178,7 +181,8 @@ impl Screen {
         drawn
     }
 
-    /// Prepares an exhibit for drawing, so that its first frames are not late.
+    /// Loads the GPU resources of the next exhibit in advance, so that its first frames are not late. An error is reported
+    /// when the exhibit is shown.
     pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
         // Errors are reported when it is shown.
         self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|prepared| (exhibit.clone(), prepared));

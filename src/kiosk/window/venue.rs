@@ -4,6 +4,7 @@ use jiff::{ToSpan, Zoned};
 use winit::event_loop::ActiveEventLoop;
 
 use super::app::App;
+use crate::fleet::LocalTime;
 use crate::live::LiveState;
 use crate::staff::StaffAction;
 use crate::step::command::KioskCommand;
@@ -20,15 +21,11 @@ impl App<'_> {
         let yesterday = now.date().checked_sub(1.day()).unwrap_or(now.date());
         let minutes = 60 * u16::from(now.hour().unsigned_abs()) + u16::from(now.minute().unsigned_abs());
         let time = TimeOfDay::from_minutes(minutes);
-        let days = [day(now.date()), day(yesterday)];
-        self.venue.update_schedule(&self.setup.config.opening, days[0], days[1], time);
+        let now = LocalTime { today: day(now.date()), yesterday: day(yesterday), time };
+        self.venue.update_schedule(&self.setup.config.opening, now.today, now.yesterday, time);
         self.announce_open_state(before);
-        if self.fleet.self_test_is_due(
-            self.setup.config.maintenance.audio_self_test_at,
-            days,
-            time,
-            self.venue.is_open(),
-        ) {
+        let at = self.setup.config.maintenance.audio_self_test_at;
+        if self.fleet.self_test_is_due(at, now, self.venue.is_open()) {
             self.start_self_test();
         }
     }
@@ -119,13 +116,14 @@ impl App<'_> {
             }
             StaffAction::SelfTest => self.start_self_test(),
             StaffAction::FoamChanged => {
-                let (history, breaths) = self.fleet.self_test();
+                let breaths = self.fleet.breaths();
+                let history = self.fleet.self_test();
                 let had = history.foam_breaths(breaths);
                 history.change_foam(breaths);
                 self.say(format!("the foam was changed; the old one had {had} breaths"));
             }
             StaffAction::ResetSelfTest => {
-                self.fleet.self_test().0.forget_reference();
+                self.fleet.self_test().forget_reference();
                 self.start_self_test();
             }
             StaffAction::Show(id) => {

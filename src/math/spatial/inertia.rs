@@ -171,7 +171,7 @@ impl Sym3 {
 }
 
 impl Articulated {
-    /// As one matrix.
+    /// The inertia as one 6 × 6 matrix.
     #[inline(always)]
     pub fn matrix(&self) -> Mat6 {
         let columns = |x: V3<f64>, y: V3<f64>, z: V3<f64>| [x, y, z].map(|c| [c.x, c.y, c.z]);

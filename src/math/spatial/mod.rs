@@ -20,9 +20,9 @@ use crate::{DMat3, DQuat, DVec3};
 pub use inertia::{Articulated, M3, NUMBERS, Sym3};
 pub use vector::SpatialVector;
 
-/// Linear part, then angular part.
+/// A spatial vector: linear part, then angular part.
 pub type Vec6 = [f64; 6];
-/// Six by six, row by row.
+/// A 6 × 6 matrix that acts on [`Vec6`], row by row.
 pub type Mat6 = [[f64; 6]; 6];
 
 /// Adds a force that acts `arm` beside the centre of mass.

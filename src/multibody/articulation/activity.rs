@@ -40,12 +40,12 @@ pub enum LoadKind {
     Impact,
 }
 
-/// A break.
+/// A constraint or spring that broke under its load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Break {
     /// Index of the constraint (or spring) that was overloaded.
     pub index: usize,
-    /// Seconds since reset.
+    /// Time of the break, s since reset.
     pub time: f64,
 }
 
@@ -60,7 +60,7 @@ pub struct Activity {
     fragile: Vec<usize>,
     /// Whether any activation is between 0 and 1.
     partial: bool,
-    /// Breaks since this was last cleared.
+    /// Breaks in order of time, since the list was last cleared.
     pub breaks: Vec<Break>,
     /// Triggers that fired since this was last cleared: index of the entry, seconds since reset.
     pub fired: Vec<(usize, f64)>,

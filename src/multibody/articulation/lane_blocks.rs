@@ -56,9 +56,9 @@ pub struct State<T> {
     pub position: V3<T>,
     /// Body axes to world axes.
     pub rotation: Quat<T>,
-    /// m/s.
+    /// Velocity of the centre of mass, m/s.
     pub velocity: V3<T>,
-    /// rad/s.
+    /// Angular velocity, rad/s.
     pub spin: V3<T>,
 }
 
@@ -114,15 +114,15 @@ impl State<Four> {
 /// Mass, pose and motion of four bodies, in world axes unless stated otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneBlock {
-    /// kg.
+    /// Mass of each body, kg.
     pub mass: Four,
-    /// Body axes, kg m².
+    /// Inertia in body axes, kg m².
     own_inertia: Sym3<Four>,
     /// Pose and velocity.
     pub state: State<Four>,
     /// Body axes to world axes.
     pub frame: M3<Four>,
-    /// kg m².
+    /// World inertia of each body about its centre of mass, kg m².
     pub inertia: Sym3<Four>,
 }
 

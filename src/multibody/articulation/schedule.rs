@@ -55,7 +55,7 @@ pub struct Breaking {
     pub torque: f64,
     /// Impulse of an impact through it, N s (angle rows: N m s).
     pub impulse: f64,
-    /// Seconds after which it is restored; infinite means at the next reset.
+    /// Time from the break until the constraint is restored, s; infinite: at the next reset.
     pub restore: f64,
 }
 

@@ -81,12 +81,19 @@ pub enum Form<'a> {
 /// Factor of a body on a joint of any kind, in the symbols of the module's head; `k` holds K⁻¹.
 #[derive(Clone, Debug)]
 pub(super) struct General {
+    /// Number of used rows.
     pub rows: usize,
+    /// Inverse of the articulated-body inertia.
     pub inverse: Mat6,
+    /// J on the parent, one six-vector per row.
     pub jp: RowBlock,
+    /// W, one six-vector per row.
     pub w: RowBlock,
+    /// K⁻¹.
     pub k: RowSquare,
+    /// X, one six-vector per row.
     pub x: RowBlock,
+    /// Rows that depend on others, as bits.
     pub redundant: u32,
 }
 

@@ -19,8 +19,9 @@ use soffio_math::spatial::row_blocks::MAX_ROWS;
 use soffio_math::spatial::{Vec6, add_scaled, dot, inverse, mul};
 
 impl Tree {
-    /// Factors the system from the lane blocks' masses and inertias, the joints' forms and the rows of loops (their
-    /// joint blocks, the trains, and whether rows are being stabilised).
+    /// Factors the matrix of the equations of motion by articulated-body inertias, from the leaves to the roots
+    /// (Featherstone). `lane_blocks` have the bodies' masses and inertias, `form` the kind of each joint by its index, and
+    /// `loops` the rows that close loops, eliminated last with `inputs`. Solutions use the factor until the next call.
     #[inline(always)]
     pub fn factor<'a, S: Simd>(
         &mut self,

@@ -43,7 +43,9 @@ pub struct Sweep {
 /// Half a box's diagonal, and its farthest corner from the centre of mass at most, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BoxSize {
+    /// Half of the box's diagonal, m.
     pub half: f64,
+    /// Largest distance of a corner from the body's centre of mass, m.
     pub bounding_radius: f64,
 }
 

@@ -29,7 +29,7 @@ pub(super) type Cube = (DVec3, BoxSize);
 /// The pairs of two bodies' colliders that can meet.
 #[derive(Clone, Debug)]
 pub(super) struct PairCache {
-    /// Which they are.
+    /// Indices of the pairs.
     pub pairs: Vec<usize>,
     /// Where the bodies' centres of mass were when all pairs were looked at, m, and how they were turned.
     start_poses: [(DVec3, DQuat); 2],
@@ -46,7 +46,8 @@ impl PairCache {
         Self { pairs: Vec::with_capacity(pairs), start_poses: [nowhere; 2], bounding_radii: [0.0; 2], margin: -1.0 }
     }
 
-    /// Are those that were left out still too far apart, on these ways of the two bodies?
+    /// Do `pairs` still hold all pairs that can meet during these motions of the two bodies? Otherwise [`Self::refresh`] is
+    /// needed.
     pub fn contains(&self, sweeps: [&Sweep; 2]) -> bool {
         let gone = |k: usize| sweeps[k].max_departure(&self.start_poses[k], self.bounding_radii[k]);
         gone(0) + gone(1) <= self.margin

@@ -26,7 +26,7 @@ const PARALLEL: f64 = 1e-9;
 pub struct JointEnd {
     /// Index of the body; `None` is the world.
     pub body: Option<usize>,
-    /// m.
+    /// A point of the volume, m.
     pub point: DVec3,
 }
 

@@ -27,13 +27,15 @@ use super::contacts::JacobianRow;
 /// One clutch.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clutch {
+    /// Index of its constraint.
     pub constraint: usize,
-    /// τ, N m.
+    /// Torque τ up to which it sticks, N m.
     pub torque: f64,
-    /// λ at the end of the present pass over a substep, N m.
+    /// Torque λ at the end of the present pass over a substep, N m.
     pub load: f64,
-    /// λ at the end of the last substep in which it stuck, N m.
+    /// Torque λ at the end of the last substep in which it stuck, N m.
     pub carried: f64,
+    /// Does it slip?
     pub slips: bool,
 }
 

@@ -29,7 +29,7 @@ impl Dynamics {
         }
     }
 
-    /// Whether a clutch of this body slips.
+    /// Does a clutch between this body (index) and another one slip in the present step?
     pub fn clutch_slips(&self, body: usize) -> bool {
         self.contacts.clutches().slips(&self.equations.system, body)
     }

@@ -37,8 +37,9 @@ pub(super) enum FactorUse {
 /// How the joints are closed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointClosing {
+    /// Which factor the solutions use.
     pub factor: FactorUse,
-    /// Close the joints in velocity too.
+    /// Are the joints closed in velocity too?
     pub velocities: bool,
 }
 
@@ -46,9 +47,11 @@ pub(super) struct JointClosing {
 pub(super) struct EquationSetup<'a> {
     /// The joints, evaluated at the start.
     pub system: System,
-    /// The same joints without trains, where there are trains.
+    /// The same joints with each gear as a row of its own, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
+    /// The springs.
     pub springs: Springs,
+    /// Bodies whose motion is given.
     pub kinematic_bodies: &'a [KinematicBody],
     /// Damping of each body.
     pub damping: &'a [Damping],
@@ -63,19 +66,23 @@ pub(super) struct EquationSetup<'a> {
 pub(super) struct Equations {
     /// The joints.
     pub system: System,
-    /// The same joints without trains, for position-based motion.
+    /// The same joints with each gear as a row of its own, for position-based motion; `None` where there are no gear trains.
     pub without_trains: Option<Box<System>>,
+    /// The springs.
     pub springs: Springs,
+    /// Bodies whose motion is given.
     pub kinematic_bodies: Vec<KinematicBody>,
     /// Each kinematic body and its acceleration at the time last evaluated.
     kinematic_accelerations: Vec<(usize, Vec6)>,
     /// Linear and angular damping rates by lane blocks, 1/s.
     damping: Vec<[Four; 2]>,
+    /// External wrenches of the present step.
     pub wrenches: Wrenches,
     /// World acceleration, m/s².
     gravity: DVec3,
     /// 1/ω₀ of the stabiliser, s.
     stabilization_time: f64,
+    /// At which state the rows were evaluated last.
     pub evaluated: Evaluated,
 }
 

@@ -83,6 +83,7 @@ pub(super) struct Substep {
     pub h: f64,
     /// The shortest length that the error may ask for, s.
     pub shortest: f64,
+    /// How the length of the substep follows from the error.
     pub error_control: ErrorControl,
 }
 
@@ -95,7 +96,9 @@ enum Convergence {
 
 /// An articulation as an integrator advances it.
 pub(super) struct Moving<'a> {
+    /// All bodies.
     pub bodies: &'a mut [RigidBody],
+    /// Their equations of motion.
     pub equations: &'a mut Equations,
     /// Contacts do not change within a substep; only the clutches' loads are recorded.
     pub contacts: &'a mut Contacts,

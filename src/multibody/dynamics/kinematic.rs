@@ -51,7 +51,7 @@ pub struct KinematicState {
     pub pose: Pose,
     /// Velocity of its origin, m/s.
     pub velocity: DVec3,
-    /// rad/s, world axes.
+    /// Angular velocity, rad/s, world axes.
     pub angular_velocity: DVec3,
     /// Acceleration of its origin, m/s².
     pub acceleration: DVec3,

@@ -56,7 +56,9 @@ pub(super) fn put<L: Lanes>(lanes: L, system: &mut System, index: usize, state: 
 
 /// Saves the bodies' state at the start of a substep.
 pub(super) struct Save<'a> {
+    /// All bodies.
     pub bodies: &'a [RigidBody],
+    /// Written: the state of each lane block.
     pub states: &'a mut [SubstepState],
 }
 
@@ -71,7 +73,9 @@ impl LaneKernel for Save<'_> {
 
 /// Restores the bodies' state at the start of the substep.
 pub(super) struct Restore<'a> {
+    /// All bodies; those of awake lane blocks are written.
     pub bodies: &'a mut [RigidBody],
+    /// Saved state of each lane block ([`Save`]).
     pub states: &'a [SubstepState],
 }
 
@@ -86,6 +90,7 @@ impl LaneKernel for Restore<'_> {
 
 /// Writes the blocks' state back to the bodies.
 pub(super) struct WriteBack<'a> {
+    /// All bodies; those of awake lane blocks are written.
     pub bodies: &'a mut [RigidBody],
 }
 
@@ -100,6 +105,7 @@ impl LaneKernel for WriteBack<'_> {
 
 /// Adds the last change of velocities to blocks and bodies.
 pub(super) struct AddVelocityChange<'a> {
+    /// All bodies; those of awake lane blocks are written.
     pub bodies: &'a mut [RigidBody],
 }
 
@@ -121,9 +127,13 @@ impl LaneKernel for AddVelocityChange<'_> {
 /// From one Runge–Kutta stage to the next: adds the rate of this one with its weight, and advances from the start by it over
 /// `h`.
 pub(super) struct Stage<'a> {
+    /// Start and weighted mean rate of each lane block.
     pub states: &'a mut [SubstepState],
+    /// Is this the first stage, which starts the mean?
     pub first: bool,
+    /// Weight of this stage's rate in the mean.
     pub weight: f64,
+    /// Time from the start to the next stage, s.
     pub h: f64,
 }
 
@@ -158,7 +168,9 @@ impl LaneKernel for Stage<'_> {
 
 /// From the last Runge–Kutta stage to the end of the substep.
 pub(super) struct Last<'a> {
+    /// Start and mean rate of each lane block.
     pub states: &'a mut [SubstepState],
+    /// Length of the substep, s.
     pub h: f64,
     /// Weight of the last rate.
     pub weight: f64,
@@ -181,7 +193,9 @@ impl LaneKernel for Last<'_> {
 
 /// Error estimate by the new rate (`integrate.rs`): each body's terms of the two sums.
 pub(super) struct Estimate<'a> {
+    /// Start and rates of each lane block.
     pub states: &'a mut [SubstepState],
+    /// Written for each body: its terms of the sums of error and scale.
     pub norms: &'a mut [[f64; 2]],
     /// 1/h³.
     pub per_cube: f64,
@@ -227,8 +241,11 @@ impl LaneKernel for Estimate<'_> {
 
 /// Sets the right-hand side: gravity, damping, the gyroscopic torque and external wrenches.
 pub(super) struct ApplyForces<'a> {
+    /// External wrench on each body: N and N m about its centre of mass.
     pub external: &'a [Vec6],
+    /// Linear and angular damping rates by lane blocks, 1/s.
     pub damping: &'a [[Four; 2]],
+    /// World acceleration by gravity, m/s².
     pub gravity: DVec3,
 }
 
@@ -257,8 +274,11 @@ pub(super) type Stages = [Vec<Rate<Four>>; 3];
 
 /// The initial guess of the three Gauss–Legendre rates.
 pub(super) struct Guess<'a> {
+    /// Start and past rates of each lane block.
     pub states: &'a [SubstepState],
+    /// Written: rates of the stages.
     pub stages: &'a mut Stages,
+    /// Length of the substep, s.
     pub h: f64,
     /// Fractions of the substep at which the rates are taken.
     pub nodes: [f64; 3],
@@ -285,9 +305,13 @@ impl LaneKernel for Guess<'_> {
 
 /// From the start over `h` by a weighted sum of the three Gauss–Legendre rates.
 pub(super) struct Mean<'a> {
+    /// Start of each lane block.
     pub states: &'a mut [SubstepState],
+    /// Rates of the stages.
     pub stages: &'a Stages,
+    /// Weights of the three rates.
     pub weights: [f64; 3],
+    /// Time over which it advances, s.
     pub h: f64,
 }
 
@@ -310,9 +334,13 @@ impl LaneKernel for Mean<'_> {
 
 /// Takes over the rate of a Gauss–Legendre stage, with the squares of its change and of its size.
 pub(super) struct Compare<'a> {
+    /// Start of each lane block.
     pub states: &'a [SubstepState],
+    /// Rates of the stages; the one of `stage` is written.
     pub stages: &'a mut Stages,
+    /// Written for each body: squares of the rate's change and of its size.
     pub norms: &'a mut [[f64; 2]],
+    /// Index of the stage, 0 to 2.
     pub stage: usize,
 }
 

@@ -53,7 +53,7 @@ struct Bound {
 pub(super) struct BoundRow {
     /// C: distance from the bound, rad or m; negative beyond it.
     pub gap: f64,
-    /// J.
+    /// J, the derivative of the gap by the velocities.
     pub row: JacobianRow,
     /// World point where it acts, for events, m.
     pub point: DVec3,
@@ -208,7 +208,7 @@ impl Limits {
         self.gauges[limit][gauge].as_ref().map_or(0.0, |gauge| gauge.total(poses))
     }
 
-    /// Value, row and point of a bound.
+    /// Gap, Jacobian row and point of the bound with this index, at the bodies' present state.
     pub fn row(&self, bound: usize, bodies: &[RigidBody]) -> BoundRow {
         let Bound { limit, end, .. } = self.bounds[bound];
         let sign = match end {

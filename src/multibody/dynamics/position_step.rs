@@ -17,7 +17,7 @@ pub struct PositionStep<'a> {
     pub bodies: &'a mut [RigidBody],
     /// The joints, with their activation in the middle of the step.
     pub system: &'a mut System,
-    /// Surfaces and limits.
+    /// State of contacts and joint limits.
     pub contacts: &'a mut Contacts,
     /// Kinematic bodies, which the mover moves too.
     pub kinematic_bodies: &'a [KinematicBody],

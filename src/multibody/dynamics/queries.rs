@@ -88,7 +88,8 @@ impl Dynamics {
         self.contacts.contact_reports(&self.bodies)
     }
 
-    /// Number of pairs of colliders that the narrow phase measured in the last step, counted in each substep.
+    /// Number of pairs of colliders whose distance the narrow phase computed in the last step. A pair counts once in each
+    /// substep that measures it.
     pub fn measured_pairs(&self) -> usize {
         self.contacts.measured()
     }

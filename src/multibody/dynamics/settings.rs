@@ -42,7 +42,7 @@ pub struct Settings {
 
 /// An articulation: bodies with their joints, limits, springs and surfaces.
 pub struct Articulation<'a> {
-    /// Bodies in their start state.
+    /// Bodies in their start state; all indices of bodies refer to this list.
     pub bodies: Vec<RigidBody>,
     /// Damping of each body.
     pub damping: Vec<Damping>,

@@ -60,8 +60,11 @@ pub(super) struct Sleep {
 /// What connects the bodies of an articulation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Connections<'a> {
+    /// All constraints.
     pub constraints: &'a [Constraint],
+    /// All joint limits.
     pub limits: &'a [Limit],
+    /// All springs.
     pub springs: &'a [Spring],
 }
 

@@ -453,7 +453,7 @@ impl Dynamics {
         fault
     }
 
-    /// Starts constrained dynamics anew from the bodies' present state.
+    /// Restarts constrained dynamics from the bodies' present state.
     pub(super) fn restart(&mut self) {
         self.equations.system.start_trains(&self.bodies);
         self.contacts.restart(&self.bodies);

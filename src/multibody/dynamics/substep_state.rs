@@ -42,9 +42,11 @@ pub(super) fn advance<T: Real, L: Lanes<T = T>>(
 /// Rate of change of bodies' states.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rate<T> {
+    /// Velocity of the centre of mass, m/s.
     pub velocity: V3<T>,
     /// σ̇, rad/s.
     pub sigma: V3<T>,
+    /// Linear and angular acceleration, m/s² and rad/s².
     pub acceleration: SpatialVector<T>,
 }
 

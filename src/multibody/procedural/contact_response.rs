@@ -104,6 +104,7 @@ pub(super) struct ContactResponse {
 }
 
 impl ContactResponse {
+    /// Room for the contacts of these dynamics; none is known yet.
     pub fn new(dynamics: &Dynamics) -> Self {
         let sources = dynamics.contacts().source_count();
         let capacity = if sources == 0 { 0 } else { MAX_CONTACTS };

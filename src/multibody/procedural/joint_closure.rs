@@ -35,10 +35,13 @@ const MAX_ROTATION: f64 = 0.7;
 
 /// Bodies during a relaxation.
 pub(super) struct Configuration<'a> {
+    /// All bodies.
     pub bodies: &'a mut [RigidBody],
     /// Rotation matrices of the bodies.
     pub frames: &'a mut [DMat3],
+    /// The joints.
     pub system: &'a System,
+    /// Contacts and limits.
     pub contacts: &'a Contacts,
     /// Target error of each row, m or rad.
     pub targets: &'a [f64],

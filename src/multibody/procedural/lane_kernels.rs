@@ -37,6 +37,7 @@ pub(super) struct LaneKernels {
 }
 
 impl LaneKernels {
+    /// The constants of these dynamics' bodies.
     pub fn new(dynamics: &Dynamics) -> Self {
         let rates = |block_bodies: &BlockBodies| {
             let damping = block_bodies.bodies.map(|body| dynamics.damping(body));

@@ -42,6 +42,7 @@ pub(super) struct Relaxation {
 }
 
 impl Relaxation {
+    /// Room for the joints and limits of these dynamics.
     pub fn new(dynamics: &Dynamics) -> Self {
         let (system, contacts) = (dynamics.system_without_trains(), dynamics.contacts());
         let mut joint_limits = vec![Vec::new(); system.joints().len()];

@@ -60,7 +60,9 @@ pub(super) struct ContactVelocity {
 /// Force and couple impulses on the first body, (t, b, n), N s and N m s.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactImpulse {
+    /// Impulse of the force, N s.
     pub force: DVec3,
+    /// Impulse of the couple, N m s.
     pub couple: DVec3,
 }
 

@@ -87,6 +87,7 @@ impl ExtraRow {
 }
 
 impl TreeSolve {
+    /// Room for the joints of a system with so many bodies.
     pub fn new(system: &System, bodies: usize) -> Self {
         Self {
             targets: vec![0.0; system.states().len()],

@@ -38,13 +38,16 @@ impl AnimationBake {
     }
 
     /// Writes the model with its key frames as a `.glb`.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn write(&self, exhibit: &Exhibit, path: &Path) -> io::Result<()> {
         let mut file = AtomicFile::create(path)?;
         file.write_all(&self.bytes(exhibit))?;
         file.finish()
     }
 
-    /// The same as bytes.
+    /// The model with its key frames as the bytes of a `.glb`.
     pub fn bytes(&self, exhibit: &Exhibit) -> Vec<u8> {
         let mut scenery = ExportModel::new(exhibit);
         let reaches = scenery.node_radii(exhibit);

@@ -44,6 +44,9 @@ pub struct RibWriter<'a> {
 
 impl<'a> RibWriter<'a> {
     /// Starts the frames in `folder` (created if missing), pictures of `size` pixels, `fps` a second.
+    ///
+    /// # Errors
+    /// The folder or the files of the scene cannot be written.
     pub fn create(exhibit: &'a Exhibit, folder: &Path, size: (u32, u32), fps: u32) -> io::Result<Self> {
         std::fs::create_dir_all(folder.join("meshes"))
             .map_err(|e| io::Error::new(e.kind(), format!("cannot make the folder {}: {e}", folder.display())))?;
@@ -69,6 +72,9 @@ impl<'a> RibWriter<'a> {
     }
 
     /// Takes the poses of the next sample, in the order of the exhibit's bodies; every second one completes a frame.
+    ///
+    /// # Errors
+    /// A file cannot be written.
     pub fn push(&mut self, number: u64, poses: &[Pose]) -> io::Result<()> {
         match self.open.take() {
             None => self.open = Some(poses.to_vec()),

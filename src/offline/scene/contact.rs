@@ -25,11 +25,11 @@ const REST_SPAN: f64 = 1.0;
 pub struct ContactReport {
     /// Deepest overlap of two shapes over the run, m; 0 where none overlap.
     pub max_penetration_m: f64,
-    /// The same at the end.
+    /// Deepest overlap at the end, m.
     pub rest_penetration_m: f64,
     /// Largest rise of the energy above its least value so far, J.
     pub max_energy_rise_j: f64,
-    /// The energy rise over the scene's energy scale.
+    /// The energy rise over the scene's energy scale, without a unit.
     pub max_energy_rise_rel: f64,
     /// Farthest distance of a body from its start, m.
     pub max_way_m: f64,
@@ -64,12 +64,12 @@ impl ContactObserver {
         })
     }
 
-    /// Sets the end of the run, s, where it is before the scene's end.
+    /// Sets the time at which the run ends, s. A time after the scene's own end changes nothing.
     pub fn set_end_time(&mut self, seconds: f64) {
         self.rest.0 = self.rest.0.min(seconds - REST_SPAN);
     }
 
-    /// Takes the states at `t` seconds and their energy, J; `scale` is the scene's energy scale.
+    /// Observes the states at time `t`, s, and their mechanical energy, J. `scale` is the scene's energy scale, J.
     pub fn observe(&mut self, t: f64, states: &[BodyState], energy: f64, scale: f64) {
         let penetration = self.penetration(states);
         let report = &mut self.report;

@@ -29,7 +29,7 @@ pub const OLD_FORMAT: &str = "isaac-bench-scene/1";
 pub struct PhysicsScene {
     /// [`FORMAT`] or [`OLD_FORMAT`].
     pub format: String,
-    /// Name of the scene.
+    /// Name of the scene, as reports show it.
     pub name: String,
     /// Description.
     #[serde(default)]

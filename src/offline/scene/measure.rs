@@ -254,7 +254,7 @@ impl<'a> Observer<'a> {
         self.report.diverged_at_s.get_or_insert(t);
     }
 
-    /// The result; `states` are the last ones.
+    /// Report of the whole run; `states` are those at its end.
     pub fn report(&self, states: &[BodyState]) -> Report {
         let meta = &self.scene.meta;
         let weight = meta.accel.zip(meta.weight_body).map(|(a, body)| {

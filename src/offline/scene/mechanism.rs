@@ -10,7 +10,7 @@
 //! last rotation of a slider. Limits are inelastic stops on a hinge's angle or a slider's displacement.
 
 use super::format::{JointKind, PhysicsScene, SceneJoint};
-use super::shape::ContactSurface;
+use super::shape::{ContactSurface, PairProperties};
 use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::Function;
 use soffio_math::{DMat3, DQuat, DVec3, Pose, tangents};
@@ -102,7 +102,7 @@ impl PhysicsScene {
         let meet = pairs(colliders, &excluded, &reach).meet.into_iter();
         meet.map(|pair| {
             let [a, b] = [pair.a, pair.b].map(|collider| material(colliders[collider].material));
-            let (restitution, friction, resistance) = a.with(&b);
+            let PairProperties { restitution, friction, resistance } = a.with(&b);
             SurfacePair { pair, restitution, friction, resistance }
         })
         .collect()

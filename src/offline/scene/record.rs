@@ -36,36 +36,36 @@ pub struct BenchRecord {
     pub real_time_factor: f64,
     /// Simulated time of the pass that measures the motion, s.
     pub sim_s: f64,
-    /// Mean number of substeps.
+    /// Mean number of substeps of a step.
     pub substeps: f64,
     /// Number of sleeping bodies at the end.
     pub asleep: usize,
-    /// Joint error of [`Report`], as the following fields.
+    /// Largest joint error over the run, m. This and the following fields are those of [`Report`].
     pub max_joint_err_m: f64,
-    /// |E − E₀|, relative.
+    /// Largest |E − E₀| over the scene's energy scale; E mechanical energy, E₀ that of the start.
     pub max_energy_drift_rel: f64,
-    /// E − E₀ at the end, relative.
+    /// E − E₀ at the end, over the scene's energy scale.
     pub final_energy_drift_rel: f64,
-    /// Time of divergence, s.
+    /// Simulated time at which the motion diverged, s; `None` where it did not.
     pub diverged_at_s: Option<f64>,
     /// Are the rounds bit-identical?
     pub repeat_bitwise: bool,
-    /// Error of the weight's speed.
+    /// Relative error of the weight's speed at the end (scene S4).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s4_speed_rel_err: Option<f64>,
-    /// Error of the weight's displacement.
+    /// Relative error of the weight's displacement at the end (scene S4).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s4_drop_rel_err: Option<f64>,
-    /// Phase error of the gears.
+    /// Largest phase error of the gears on their pitch circles, m (scene S4).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s4_max_coupling_err_m: Option<f64>,
-    /// Error of the mean period by linear interpolation.
+    /// Relative error of the mean period, 10⁻⁶, with zero crossings by linear interpolation (scene S5).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s5_period_err_ppm: Option<f64>,
-    /// Error of the mean period by cubic interpolation.
+    /// Relative error of the mean period, 10⁻⁶, with zero crossings by cubic interpolation (scene S5).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s5_period_err_hermite_ppm: Option<f64>,
-    /// Amplitude at the end over that at the start.
+    /// Amplitude at the end over that at the start (scene S5).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub s5_amplitude_ratio: Option<f64>,
     /// Contacts, where the scene collides.

@@ -22,7 +22,7 @@ pub enum ShapeAxis {
 }
 
 impl ShapeAxis {
-    /// Unit vector.
+    /// Unit vector of the axis.
     pub fn direction(self) -> DVec3 {
         match self {
             Self::X => DVec3::X,
@@ -138,13 +138,29 @@ pub struct ContactSurface {
     pub rolling_resistance: f64,
 }
 
+/// Contact properties of a pair of surfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct PairProperties {
+    /// Energetic coefficient of restitution, 0 … 1.
+    pub restitution: f64,
+    /// Coulomb coefficient.
+    pub friction: f64,
+    /// Rolling and drilling resistance, m.
+    pub resistance: RollingResistance,
+}
+
 impl ContactSurface {
-    /// Restitution, friction and resistance of two surfaces.
-    pub fn with(&self, other: &Self) -> (f64, f64, RollingResistance) {
+    /// Properties of the contact of two surfaces: restitution and friction by the geometric mean, rolling resistance by the
+    /// sum.
+    pub fn with(&self, other: &Self) -> PairProperties {
         let rolling = self.rolling_resistance + other.rolling_resistance;
         let mean = |a: f64, b: f64| if a == b { a } else { (a * b).sqrt() };
         let resistance = RollingResistance { rolling, ..RollingResistance::default() };
-        (mean(self.restitution, other.restitution), mean(self.friction, other.friction), resistance)
+        PairProperties {
+            restitution: mean(self.restitution, other.restitution),
+            friction: mean(self.friction, other.friction),
+            resistance,
+        }
     }
 
     pub(super) fn problem(&self, key: &str) -> Problem {

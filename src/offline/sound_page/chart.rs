@@ -10,7 +10,7 @@ pub struct Axis {
     pub low: f64,
     /// Value at the end.
     pub high: f64,
-    /// Is the scale logarithmic?
+    /// Is the scale logarithmic? Then both ends are above 0.
     pub logarithmic: bool,
 }
 

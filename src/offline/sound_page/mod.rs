@@ -52,6 +52,9 @@ pub enum PageError {
 pub type Subject = (Preset, Specimen, TestSound);
 
 /// Writes `NAME.png` and `NAME.wav` for each timbre and an `index.html`; creates the folder if missing.
+///
+/// # Errors
+/// A file cannot be written, or a timbre does not fit its specimen.
 pub fn write(folder: &Path, subjects: &[Subject]) -> Result<(), PageError> {
     std::fs::create_dir_all(folder)?;
     let mut page = String::from(HEAD);

@@ -38,6 +38,9 @@ pub(super) struct FfmpegEncoder {
 
 impl FfmpegEncoder {
     /// Starts ffmpeg; `size` is the width and height of all pictures, in pixels.
+    ///
+    /// # Errors
+    /// ffmpeg cannot be started; the reason.
     pub fn create(path: &Path, size: (u32, u32), fps: u32) -> Result<Self, String> {
         let place = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = tempfile::Builder::new()
@@ -63,6 +66,9 @@ impl FfmpegEncoder {
     }
 
     /// Encodes the next picture.
+    ///
+    /// # Errors
+    /// ffmpeg has ended; its last message.
     pub fn push(&mut self, picture: &RgbaImage) -> Result<(), String> {
         let written = self.child.stdin.as_mut().map(|pipe| pipe.write_all(picture.as_raw()));
         match written {
@@ -72,6 +78,9 @@ impl FfmpegEncoder {
     }
 
     /// Completes the film, with the sound of a WAV file if one is given.
+    ///
+    /// # Errors
+    /// ffmpeg has failed, or the file cannot be renamed; the reason.
     pub fn finish(mut self, sound: Option<&Path>) -> Result<(), String> {
         // The end of the pipe ends the video.
         drop(self.child.stdin.take());

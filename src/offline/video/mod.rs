@@ -99,6 +99,9 @@ enum Sink {
 
 impl Video {
     /// Creates a video of `frames` pictures (at least one) of `size` pixels, `fps` a second.
+    ///
+    /// # Errors
+    /// The file cannot be created, or ffmpeg cannot be started; the reason.
     pub fn create(plan: &Plan, size: (u32, u32), fps: u32, frames: u32) -> Result<Self, String> {
         let frames = frames.max(1);
         let sink = match plan.format {
@@ -118,6 +121,9 @@ impl Video {
     }
 
     /// Adds the next picture; pictures after the last are ignored.
+    ///
+    /// # Errors
+    /// The picture cannot be encoded or written; the reason.
     pub fn push(&mut self, picture: &RgbaImage) -> Result<(), String> {
         let Some(left) = self.left.checked_sub(1) else { return Ok(()) };
         self.left = left;
@@ -133,6 +139,9 @@ impl Video {
     }
 
     /// Adds the sound and completes the file.
+    ///
+    /// # Errors
+    /// The file cannot be completed; the reason.
     pub fn finish(self, sound: Option<&Path>) -> Result<(), String> {
         match self.sink {
             Sink::FfmpegEncoder(film) => film.finish(sound),

@@ -17,6 +17,9 @@ pub(super) struct Y4m {
 
 impl Y4m {
     /// Begins a film of pictures of this width and height, in pixels.
+    ///
+    /// # Errors
+    /// The file cannot be created.
     pub fn create(path: &Path, (width, height): (u32, u32), fps: u32) -> io::Result<Self> {
         let mut file = AtomicFile::create(path)?;
         writeln!(file, "YUV4MPEG2 W{width} H{height} F{fps}:1 Ip A1:1 C444 XCOLORRANGE=LIMITED")?;
@@ -26,6 +29,9 @@ impl Y4m {
     }
 
     /// Writes the next picture.
+    ///
+    /// # Errors
+    /// The file cannot be written.
     pub fn push(&mut self, picture: &RgbaImage) -> io::Result<()> {
         self.planes.iter_mut().for_each(Vec::clear);
         for pixel in picture.pixels() {
@@ -38,6 +44,9 @@ impl Y4m {
     }
 
     /// Completes the file.
+    ///
+    /// # Errors
+    /// The file cannot be written or renamed.
     pub fn finish(self) -> io::Result<()> {
         self.file.finish()
     }

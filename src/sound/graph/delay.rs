@@ -1,8 +1,6 @@
 //! A delay with feedback.
 
-/// What is below this on the line is not waited for: −100 dB.
-const INAUDIBLE: f32 = 1e-5;
-
+use crate::bounds::INAUDIBLE;
 /// The line, how much of it is in use, and the sample that comes out next.
 #[derive(Clone, Default)]
 pub(super) struct DelayLine {
@@ -48,7 +46,8 @@ impl DelayLine {
             let again = x + feedback * *y;
             // Denormal numbers are slow and not heard.
             self.line[self.at] = if again.abs() < 1e-20 { 0.0 } else { again };
-            self.tail = if again.abs() > INAUDIBLE { self.used } else { self.tail.saturating_sub(1) };
+            // What is not heard on the line is not waited for.
+            self.tail = if again.abs() > INAUDIBLE as f32 { self.used } else { self.tail.saturating_sub(1) };
             self.at = if self.at + 1 == self.used { 0 } else { self.at + 1 };
         }
     }

@@ -49,6 +49,9 @@ struct Operator {
 
 impl Graph {
     /// Compiles a checked preset for a body.
+    ///
+    /// # Errors
+    /// The preset does not fit the body; what it lacks.
     pub fn compile(preset: &Preset, spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
         let order = preset.order(&preset.name)?;
         let index = |name: &str| order.iter().position(|known| *known == name).unwrap_or_default();

@@ -14,11 +14,11 @@ use crate::timbre::{Noise, NoiseKind};
 use soffio_math::noise::{hash, perlin1};
 use soffio_math::{PI, exp, ln};
 
-/// Distance from one pole to the next: two octaves. The lowest is at 20 Hz at 48 kHz.
+/// Ratio of one pole's frequency to the next: two octaves, for a ripple below 0.5 dB. The lowest is at 20 Hz at 48 kHz.
 const APART: f64 = 4.0;
-/// The lowest pole, of the sample rate.
+/// Frequency of the lowest pole over the sample rate: 20 Hz at 48 kHz, the lower end of hearing.
 const LOWEST: f64 = 20.0 / 48_000.0;
-/// Brings the noise to the power of white noise: 1/√ of the mean of |H|², which is 1 at 0 Hz.
+/// Gain that brings the noise to the power of white noise: 1/√ of the mean of |H|², which is 1 at 0 Hz.
 const MAKE_UP: f64 = 14.2;
 
 /// White noise made pink.
@@ -28,6 +28,7 @@ pub(super) struct Pink {
 }
 
 impl Pink {
+    /// The pink filter's poles and zeros.
     pub fn new() -> Self {
         let mut corner = LOWEST;
         let sections = std::array::from_fn(|_| {
@@ -38,6 +39,7 @@ impl Pink {
         Self { sections }
     }
 
+    /// Renders a block of pink noise.
     pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         for y in out {
             let mut x = MAKE_UP * state.random.signed();
@@ -61,6 +63,7 @@ pub(super) struct Slow {
 }
 
 impl Slow {
+    /// The slow noise of a checked node.
     pub fn new(noise: &Noise) -> Self {
         let &Noise { base, octaves, roughness, .. } = noise;
         Self { fractal: noise.kind == NoiseKind::Multifractal, base, octaves, roughness }
@@ -91,6 +94,7 @@ impl Slow {
         self.octaves_below(0.25 * sample_rate / CONTROL_PERIOD as f64) < self.octaves
     }
 
+    /// Starts the noise of a voice at `time`, s.
     pub fn begin(&self, state: &mut OperatorState, seed: u64, time: f64, sample_rate: f64) {
         if self.is_fast(sample_rate) {
             (state.place, state.step) = (time, 1.0 / sample_rate);
@@ -100,6 +104,7 @@ impl Slow {
         (state.seed, state.octaves) = (seed, self.octaves_below(0.125 * sample_rate));
     }
 
+    /// Sets the change per sample up to the next control point; `time` in s.
     pub fn control(&self, state: &mut OperatorState, seed: u64, time: f64, sample_rate: f64) {
         if self.is_fast(sample_rate) {
             state.place = time;
@@ -109,6 +114,7 @@ impl Slow {
         }
     }
 
+    /// Renders a block of slow noise.
     pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         for y in out {
             if state.step > 0.0 {

@@ -11,9 +11,9 @@ use crate::shared::Shared;
 use crate::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
 use soffio_math::exp;
 
-/// An envelope ends below this: −120 dB.
+/// Level below which an envelope ends: −120 dB, 24 dB below the steps of 16 bits.
 const OVER: f64 = 1e-6;
-/// Shortest time constant of an envelope, s.
+/// Shortest time constant of an envelope, s: half a sample at 48 kHz.
 const SHORTEST: f64 = 1e-5;
 
 pub(super) enum OperatorKind {
@@ -50,6 +50,9 @@ pub(super) enum OperatorKind {
 
 impl OperatorKind {
     /// An operator of a checked node. The error says what the node lacks.
+    ///
+    /// # Errors
+    /// What the node lacks.
     pub fn compile(node: &Node, surface: Option<&SurfaceLine>, shared: &mut Shared) -> Result<Self, String> {
         Ok(match node {
             Node::Modal(_) => Self::Modal,

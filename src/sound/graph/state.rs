@@ -5,20 +5,22 @@ use super::filter::StateVariable;
 use crate::timbre::LONGEST_DELAY;
 use soffio_math::noise::Random;
 
-/// Sections of the pink filter.
+/// Sections of the pink filter: one every two octaves from 20 Hz, the last beyond 20 kHz.
 pub(super) const PINK: usize = 6;
 
 /// What one operator of one voice remembers.
 #[derive(Clone)]
 pub(crate) struct OperatorState {
-    /// Level now, and its change per sample.
+    /// Present level, linear.
     pub gain: f64,
+    /// Change of the level per sample.
     pub gain_step: f64,
-    /// Whether anything that is heard takes this operator.
+    /// Does anything that is heard read this operator?
     pub is_needed: bool,
     pub(super) random: Random,
-    /// Env, slow noise and texture: value now; env: factor per sample; others: change per sample.
+    /// Present value of an envelope, a slow noise or a texture, without a unit.
     pub value: f64,
+    /// Of an envelope: factor of the value per sample. Of a slow noise or a texture: change per sample.
     pub(super) change: f64,
     /// Env: rise per sample until it is 1; 0 afterwards.
     pub(super) rise: f64,

@@ -20,20 +20,23 @@ use crate::timbre::{Texture, TextureKind};
 use soffio_math::noise::{Random, hash_words, perlin3};
 use soffio_math::{DVec3, PI, ln, sin, sincos};
 
-/// Points of a procedural line.
+/// Points of a procedural line: 9 µm each over 0.3 m.
 const POINTS: usize = 1 << 15;
-/// Fewest points of a level.
+/// Fewest points of a level of the pyramid: the reading kernel must fit in.
 const FEWEST: usize = 32;
-/// Most points of a picture's line.
+/// Most points of a picture's line: a bound on memory, 1 MiB.
 const MOST: usize = 1 << 18;
-/// Parts of a line that a piece of it is long, least and most, and that fades into the next.
+/// Shortest and longest piece of a line that is read at once, as parts of the line: 75 to 150 mm, about a hand's width.
 const PIECE: (f64, f64) = (0.25, 0.5);
+/// Part of a line over which a piece fades into the next: 5 mm.
 const FADE: f64 = 1.0 / 64.0;
-/// Taps of the reading kernel, and its phases.
+/// Taps of the reading kernel.
 const TAPS: usize = 12;
+/// Phases of the reading kernel between two points.
 const PHASES: usize = 128;
-/// Half the taps of the low-pass between levels, and the shape of its window: −80 dB.
+/// Half the taps of the low-pass between levels.
 const REACH: usize = 110;
+/// Shape β of the low-pass's Kaiser window: −80 dB in the stop band (Kaiser, 1974: β = 0.1102 (A − 8.7)).
 const WINDOW: f64 = 7.9;
 
 /// A closed line of a surface at all scales.
@@ -62,6 +65,9 @@ impl Pyramid {
     }
 
     /// The line of a picture.
+    ///
+    /// # Errors
+    /// The line has fewer than [`FEWEST`] or more than [`MOST`] points, or a number that is not finite.
     pub fn of_picture(line: &SurfaceLine) -> Result<Self, String> {
         let fine = line.spacing.is_finite() && line.spacing > 0.0 && line.values.iter().all(|v| v.is_finite());
         if !(fine && (FEWEST..=MOST).contains(&line.values.len())) {
@@ -120,6 +126,7 @@ impl Pyramid {
         if self.endless { self.points() as f64 * random.range(PIECE.0, PIECE.1) } else { f64::INFINITY }
     }
 
+    /// Renders a block of the line as it is read at the state's speed.
     pub fn render(&self, state: &mut OperatorState, out: &mut [f32]) {
         let points = self.points() as f64;
         let on = |place: f64, way: f64| if place + way >= points { place + way - points } else { place + way };

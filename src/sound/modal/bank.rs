@@ -9,28 +9,29 @@
 //!
 //! Real-time: after [`Bank::new`] nothing allocates, and work is bounded by the number of partials.
 
+use crate::bounds::FAULT_LEVEL;
 use fearless_simd::{Level, Simd, dispatch};
 
 use super::kernel::{BLOCK, FRAME, GROUP, Group, Phasors, Sums, add_response, ring, ring_beside, ring_driven, times};
 use super::pulse::{MOST_DECAYS, Pulse};
 use soffio_math::{PI, exp, sincos};
 
-/// Largest amplitude of an impact, all partials together; greater ones are invalid.
-const MAX_LOUDNESS: f64 = 1000.0;
-/// Blocks between two measurements of the groups' energies.
+/// Largest amplitude of an impact, all partials together, of full scale; greater ones are invalid.
+const MAX_LOUDNESS: f64 = FAULT_LEVEL as f64;
+/// Blocks between two measurements of the groups' energies: 11 ms at 48 kHz, so that the measuring costs little.
 const ENERGY_INTERVAL: u32 = 8;
-/// Partials above this part of the sample rate are left out.
+/// Partials above this part of the sample rate are left out: a little below half of it, where they would alias.
 const MAX_FREQUENCY: f64 = 0.49;
 /// Fastest decay, 1/s: a T60 of 1 ms. Faster decays are clicks, not partials.
 const MAX_DECAY: f64 = 7000.0;
 
-/// Shorter contacts are an impulse, s.
+/// Contacts shorter than this are an impulse, s: far below a sample.
 const MIN_CONTACT: f64 = 1e-12;
 
 /// A partial of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Partial {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// c, 1/s; T60 = 6.908/c.
     pub decay: f64,
@@ -212,8 +213,8 @@ impl Bank {
                 }
                 let decay = (self.partials[n].decay + self.damping[n]).min(MAX_DECAY);
                 let omega = 2.0 * PI * self.partials[n].frequency;
-                let (k, ring) = pulse.ringing(decay, omega);
-                let (k, ring) = (k.map(|x| a * x), ring.map(|x| a * x));
+                let response = pulse.response(decay, omega);
+                let (k, ring) = (response.during.map(|x| a * x), response.after.map(|x| a * x));
                 let sinusoid = pulse.shared(decay, omega, k);
                 (contact[0][0][i], contact[0][1][i]) = (k[0], k[1]);
                 (contact[1][0][i], contact[1][1][i]) = (ring[0], ring[1]);

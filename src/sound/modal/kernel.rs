@@ -26,13 +26,13 @@ use std::hint::black_box;
 
 use fearless_simd::{Level, Simd, dispatch, f32x4, f32x16, f64x8};
 
-/// Samples of a frame.
+/// Samples of a frame: one vector of AVX-512, four of SSE.
 pub const FRAME: usize = 16;
 /// Frames of a block.
 pub const FRAMES: usize = 4;
 /// Samples of a block.
 pub const BLOCK: usize = FRAME * FRAMES;
-/// Partials of a group.
+/// Partials of a group: as many as a frame has samples, so that the same vectors hold them.
 pub const GROUP: usize = 16;
 
 /// Numbers of a group's partials: real parts, then imaginary ones.

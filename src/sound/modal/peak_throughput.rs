@@ -8,7 +8,7 @@ use fearless_simd::{Level, Simd, dispatch, f32x16};
 
 /// Vectors that do not wait for each other: two multiply-adds a cycle of a latency of four to five.
 const VECTORS: usize = 6;
-/// Numbers of a vector.
+/// Numbers of a vector: one of AVX-512.
 const LANES: usize = 16;
 
 /// Does `rounds` times as many multiply-adds as there are lanes. Their number, and a sum that has to be used, or nothing

@@ -21,6 +21,15 @@ const APART: f64 = 1e-4;
 /// Decays during a contact beyond which K and G no longer fit into one f32 sum: the pulse is cut to it.
 pub(super) const MOST_DECAYS: f64 = 5.0;
 
+/// How a partial answers a pulse of unit area: real and imaginary part of the amplitude of its free ringing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PulseResponse {
+    /// K, while the contact lasts.
+    pub during: [f64; 2],
+    /// G, after it.
+    pub after: [f64; 2],
+}
+
 /// A half-sine pulse of unit area.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pulse {
@@ -42,7 +51,7 @@ impl Pulse {
     }
 
     /// K and G of a partial of decay c and angular frequency ω, 1/s.
-    pub fn ringing(&self, decay: f64, omega: f64) -> ([f64; 2], [f64; 2]) {
+    pub fn response(&self, decay: f64, omega: f64) -> PulseResponse {
         let w = self.omega;
         let omega = if (omega / w - 1.0).abs() < APART { w * (1.0 + APART) } else { omega };
         // λ² + Ω².
@@ -51,7 +60,7 @@ impl Pulse {
         let k = [re * over, -im * over];
         let (s, c) = sincos(omega * self.duration);
         let grown = exp((decay * self.duration).min(MOST_DECAYS));
-        (k, times(k, [1.0 + grown * c, -grown * s]))
+        PulseResponse { during: k, after: times(k, [1.0 + grown * c, -grown * s]) }
     }
 
     /// What a partial adds to the common sinusoid: factors of cos Ωt and sin Ωt.

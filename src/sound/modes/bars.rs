@@ -12,7 +12,7 @@ use crate::excitation::{FULL_SCALE_PRESSURE, IMPEDANCE, SOUND_SPEED};
 use crate::timbre::{Bar, BeamModel, MaterialOverride, Modal, Tube};
 use soffio_math::{PI, exp, ln};
 
-/// A tube of the body's own dimensions.
+/// A tube of the body's own dimensions. It hangs at the node of the first mode, 0.2242 of the length from its end.
 pub(super) const BODYS_TUBE: Tube = Tube {
     model: BeamModel::Timoshenko,
     length: None,
@@ -24,7 +24,7 @@ pub(super) const BODYS_TUBE: Tube = Tube {
     radiation_loss: false,
     material: NO_OVERRIDE,
 };
-/// A bar of the body's own dimensions.
+/// A bar of the body's own dimensions. It hangs at the node of the first mode, 0.2242 of the length from its end.
 pub(super) const BODYS_BAR: Bar = Bar {
     model: BeamModel::Timoshenko,
     length: None,
@@ -34,6 +34,7 @@ pub(super) const BODYS_BAR: Bar = Bar {
     radiation_loss: false,
     material: NO_OVERRIDE,
 };
+/// The body's own material.
 const NO_OVERRIDE: MaterialOverride =
     MaterialOverride { youngs_modulus: None, shear_modulus: None, poisson: None, density: None, loss_factor: None };
 

@@ -44,7 +44,7 @@ pub struct Section {
     pub youngs_modulus: f64,
     /// κG, Pa; infinite without shear and rotary inertia.
     pub shear_stiffness: f64,
-    /// kg/m³.
+    /// Density ρ, kg/m³.
     pub density: f64,
 }
 
@@ -58,7 +58,7 @@ impl Section {
 /// One bending mode of a free beam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeamMode {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// Whether w is odd about the middle.
     pub odd: bool,

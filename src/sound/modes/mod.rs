@@ -32,9 +32,11 @@ use super::timbre::{Modal, Source, Table};
 use mode::Matter;
 use plate::outline_exponent;
 
-/// A body this many times as long as it is wide, and not a sheet, is a bar or a tube.
+/// Ratio of length to width from which a body that is no sheet is a bar or a tube: beam theory is good to some per cent
+/// from there on.
 const SLENDER: f64 = 4.0;
-/// A body thinner than this share of its width is a sheet.
+/// Ratio of thickness to width below which a body is a sheet, whose modes are those of a plate. A judgement by shape:
+/// between a lid and a block.
 const SHEET: f64 = 0.3;
 
 /// The partials of a modal node on a body, in ascending order, and the exponent of the outline that plates have;

@@ -8,7 +8,7 @@ use soffio_math::PI;
 /// One partial of a body.
 #[derive(Clone, Debug)]
 pub struct Mode {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// c, 1/s.
     pub decay: f64,
@@ -24,15 +24,18 @@ pub(crate) type ModeError = (&'static str, String);
 /// The body with what the preset says instead of the exhibit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matter {
+    /// Constants of the material.
     pub material: SoundMaterial,
     /// G, Pa.
     pub shear_modulus: f64,
+    /// Dimensions and mass of the body.
     pub body: SoundBody,
     /// m³.
     pub volume: f64,
 }
 
 impl Matter {
+    /// The instrument's own body and material, with the constants that the preset gives instead.
     pub fn new(spec: &InstrumentSpec, given: &MaterialOverride) -> Self {
         let own = spec.material;
         let material = SoundMaterial {

@@ -21,7 +21,8 @@ use super::eigen::{Matrix, generalised};
 use crate::{SoundBody, SoundMaterial};
 use soffio_math::{PI, cos, pow};
 
-/// Largest total degree of the Ritz polynomials.
+/// Largest total degree of the Ritz polynomials: the kept half of the modes is then accurate (a test compares with
+/// published tables).
 pub const DEGREE: usize = 18;
 
 /// Values of the polynomials P_0 … P_DEGREE at one coordinate.
@@ -30,7 +31,7 @@ pub(super) type Legendre = [f64; DEGREE + 1];
 /// One mode of vibration.
 #[derive(Clone, Debug)]
 pub struct PlateMode {
-    /// Hz.
+    /// Frequency, Hz.
     pub frequency: f64,
     /// Parity of the shape in x and in y: 0 even, 1 odd.
     pub parity: [usize; 2],
@@ -81,9 +82,10 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
     let mut modes = Vec::new();
     for parity in [[0, 0], [1, 0], [0, 1], [1, 1]] {
         let basis: Vec<(usize, usize)> = terms(parity).collect();
-        let per_weight = (stiffness_per_weight, mass_per_weight);
+        let per_weight = PerWeight { stiffness: stiffness_per_weight, mass: mass_per_weight };
         // The same sums in the same order, whatever the instructions.
-        let (k, m) = dispatch!(Level::new(), _simd => matrices(&quadrature, &basis, [a, b], nu, per_weight));
+        let RitzMatrices { k, m } =
+            dispatch!(Level::new(), _simd => matrices(&quadrature, &basis, [a, b], nu, per_weight));
         // Rigid motions: 1, x and y are the lowest of their classes; xy bends.
         let rigid = usize::from(parity != [1, 1]);
         let solved = generalised(&k, &m);
@@ -98,16 +100,32 @@ pub fn free_plate_modes(body: &SoundBody, material: &SoundMaterial) -> Vec<Plate
     modes
 }
 
-/// K and M of a basis, of which only the lower triangles are filled. `per_weight`: what a weight of the quadrature stands
-/// for, in stiffness and in mass.
+/// What a weight of the quadrature stands for.
+#[derive(Clone, Copy)]
+struct PerWeight {
+    /// D a b, N m³.
+    stiffness: f64,
+    /// Mass, kg.
+    mass: f64,
+}
+
+/// The matrices of K c = ω² M c, of which only the lower triangles are filled.
+struct RitzMatrices {
+    /// Stiffness, N/m.
+    k: Matrix,
+    /// Mass, kg.
+    m: Matrix,
+}
+
+/// K and M of a basis of degrees (m, n) on a plate with half extents a and b, m, and Poisson's ratio ν.
 #[inline(always)]
 fn matrices(
     quadrature: &Quadrature,
     basis: &[(usize, usize)],
     [a, b]: [f64; 2],
     nu: f64,
-    per_weight: (f64, f64),
-) -> (Matrix, Matrix) {
+    per_weight: PerWeight,
+) -> RitzMatrices {
     let n = basis.len();
     let (mut k, mut m) = (Matrix::zero(n), Matrix::zero(n));
     // Of each basis function: w, w,xx, w,yy, w,xy.
@@ -120,7 +138,7 @@ fn matrices(
             yy[at] = x[0][i] * y[2][j] / (b * b);
             xy[at] = x[1][i] * y[1][j] / (a * b);
         }
-        let (wk, wm) = (4.0 * point.weight * per_weight.0, 4.0 * point.weight * per_weight.1);
+        let (wk, wm) = (4.0 * point.weight * per_weight.stiffness, 4.0 * point.weight * per_weight.mass);
         for i in 0..n {
             let by_xx = wk * (xx[i] + nu * yy[i]);
             let by_yy = wk * (yy[i] + nu * xx[i]);
@@ -134,7 +152,7 @@ fn matrices(
             }
         }
     }
-    (k, m)
+    RitzMatrices { k, m }
 }
 
 /// A place (−1…1 each) outside of the outline of exponent `p`, pulled straight towards the centre onto the rim: shapes

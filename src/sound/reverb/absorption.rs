@@ -31,10 +31,10 @@ use soffio_math::{PI, amplitude_to_db, db_to_amplitude, sincos, sqrt};
 pub(super) const SHELVES: usize = BANDS.len() - 1;
 /// Iterations of Newton's method; four leave less than 10⁻⁹ dB for all valid specifications.
 const ROUNDS: usize = 8;
-/// Step of the differences, dB.
+/// Step of the finite differences, dB: small beside the levels and large beside their rounding.
 const STEP: f64 = 1e-3;
 /// Greatest gain of a line at any frequency, dB: below 0, so that every sound decays.
-const FAULT_LEVEL: f64 = -1e-3;
+const MAX_GAIN_DB: f64 = -1e-3;
 
 /// y = b0 x + s₁, s₁ ← b1 x − a1 y + s₂, s₂ ← b2 x − a2 y: b0, b1, b2, a1, a2.
 type Shelf = [f64; 5];
@@ -141,7 +141,7 @@ impl Absorption {
             loudest = loudest.max(self.level(frequency, sample_rate));
             frequency *= ratio;
         }
-        loudest <= FAULT_LEVEL
+        loudest <= MAX_GAIN_DB
     }
 }
 

@@ -33,23 +33,23 @@ pub use lines::BANDS;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, u32x16};
 
+use crate::bounds::FAULT_LEVEL;
 use absorption::{Absorption, Absorptions};
 use lines::LINES;
 use network::{CHUNK, Delay, Network};
 
 use soffio_math::{amplitude_to_db, db_to_amplitude, pow, sqrt};
 
-/// Allowed decay times, s.
+/// Allowed decay times, s: from a furnished room to a church.
 pub const T60_RANGE: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// Greatest ratio of the decay times of neighbouring octaves that the shelves of `absorption` can follow.
 pub const MAX_T60_RATIO: f64 = 1.6;
 
-/// Shortest and longest line, s.
+/// Shortest and longest line, s. Their sum gives the mode density of a smooth tail (Schroeder 1962).
 const LENGTHS: (f64, f64) = (0.021, 0.079);
-/// Allpasses of the left and of the right channel, s.
+/// Delays of the allpasses of the left and of the right channel, s: incommensurate, and between 1 and 10 ms, where
+/// echoes fuse.
 const DIFFUSERS: [[f64; 3]; 2] = [[0.0017, 0.0041, 0.0089], [0.0019, 0.0045, 0.0083]];
-/// Louder input is a fault and is clamped, so that it does not persist in the lines.
-const FAULT_LEVEL: f32 = 1e3;
 /// Band whose decay sets the level: 1 kHz.
 const LEVEL_BAND: usize = 3;
 
@@ -200,6 +200,7 @@ impl Reverb {
 /// Clamps to the fault level; 0 for numbers that are not finite.
 #[inline(always)]
 fn sanitised<S: Simd>(x: f32x16<S>) -> f32x16<S> {
+    // A fault is clamped, so that it does not persist in the lines.
     let bounded = x.min(FAULT_LEVEL).max(-FAULT_LEVEL);
     x.abs().simd_lt(f32::INFINITY).select(bounded, f32x16::splat(x.simd, 0.0))
 }

@@ -18,15 +18,17 @@ pub(super) type Chunk = [f32; CHUNK];
 /// Half of a line's shelves.
 const HALF: usize = SHELVES / 2;
 
-/// Coefficient of the allpasses.
+/// Coefficient of the allpasses (Schroeder 1962 has 0.7): a little less, so that single clicks do not ring.
 const DIFFUSION: f32 = 0.6;
-/// Of H/4.
+/// Factor of H that keeps energy: 1/√16, in H/4.
 const MIXED: f32 = 0.25;
-/// Into the lines: energy 1 for either side, which has eight of them (1/√8), with the signs of a row of H.
+/// Gain into the lines: energy 1 for either side, which has eight of them (1/√8), with the signs of a row of H.
 const INTO: f32 = 0.353_553_4;
+/// Row of H whose signs the input has.
 const INTO_ROW: usize = 6;
-/// Out of the lines: rows of H/4, which the mixing makes anyway.
+/// Row of H/4 that the left output takes; the mixing makes it anyway.
 const LEFT: usize = 9;
+/// Row of H/4 that the right output takes: orthogonal to the left one's.
 const RIGHT: usize = 12;
 
 /// Is H_ri = (−1)^popcount(r & i), of the Hadamard matrix, below 0?

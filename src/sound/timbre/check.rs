@@ -8,7 +8,7 @@ use super::preset::Preset;
 use super::read::hint;
 use super::source::{Drawn, MaterialOverride, Modal, Source, TablePartial};
 
-/// Most points of a curve.
+/// Most points of a curve: a bound on hostile files, far beyond any curve drawn by hand.
 const MOST_POINTS: usize = 64;
 /// Points of a texture's line, at most: its grain over its resolution, many grains long.
 const FINEST_GRAIN: f64 = 1000.0;

@@ -52,7 +52,7 @@ pub struct Noise {
     /// `perlin` and `multifractal`: Hurst exponent H; the spectrum falls as f^(−1−2H).
     #[serde(default = "kolmogorov")]
     pub roughness: f64,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }
@@ -99,7 +99,7 @@ pub struct Texture {
     /// Speed at which it is read, m/s.
     #[serde(default = "slip_speed")]
     pub speed: Number,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }
@@ -131,7 +131,7 @@ pub struct Filter {
     /// Resonance; 0.707 is flat. Not for `one-pole`.
     #[serde(default = "flat")]
     pub q: Number,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }
@@ -161,7 +161,7 @@ pub struct Env {
     pub attack: Number,
     /// Time constant with which it falls then, s.
     pub decay: Number,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }
@@ -182,12 +182,12 @@ pub struct Map {
     pub r#in: String,
     /// [in, out], ascending; straight lines between them, level beyond.
     pub points: Vec<[f64; 2]>,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }
 
-/// The same, later.
+/// A delay line with feedback: its input, later.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Delay {
@@ -198,7 +198,7 @@ pub struct Delay {
     /// Share that goes round again, −0.99…0.99.
     #[serde(default)]
     pub feedback: f64,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }
@@ -209,7 +209,7 @@ pub struct Delay {
 pub struct Mix {
     /// The nodes.
     pub r#in: Vec<String>,
-    /// Level.
+    /// Linear gain of the node's output.
     #[serde(default = "one")]
     pub gain: Number,
 }

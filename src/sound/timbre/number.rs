@@ -15,9 +15,9 @@ use serde::{Deserialize, Deserializer};
 
 use soffio_math::pow;
 
-/// Most factors, and most terms, of one number.
+/// Most factors, and most terms, of one number: bounds the work of a reading.
 pub const MAX_FACTORS: usize = 3;
-/// No number leaves these bounds.
+/// Bound of the magnitude of every number, in its own unit: beyond it a file is wrong.
 const BOUND: f64 = 1e12;
 
 /// A number of a preset: fixed, or following the motion.
@@ -43,7 +43,7 @@ pub struct Binding {
     /// Exponent; the sign of the input is kept.
     #[serde(default = "unity")]
     pub power: f64,
-    /// Value where the input is 0.
+    /// Value where the input is 0, in the number's own unit.
     #[serde(default)]
     pub offset: f64,
     /// Other inputs that it is multiplied by.
@@ -170,7 +170,7 @@ impl<'de> Deserialize<'de> for Number {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Input {
-    /// N s.
+    /// Impulse of the hit, N s.
     Impulse,
     /// Approach speed, m/s.
     Speed,
@@ -199,16 +199,27 @@ pub enum Input {
 /// Values of all inputs at one moment, by the names of [`Input`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Inputs {
+    /// Impulse of the hit, N s.
     pub impulse: f64,
+    /// Approach speed of the hit, m/s.
     pub speed: f64,
+    /// Effective mass of the hit, kg.
     pub mass: f64,
+    /// Contact time of the hit, s.
     pub contact_time: f64,
+    /// Pressure 1 m away if the body's whole face moved as the hit pushes it, of full scale.
     pub rigid_pressure: f64,
+    /// Place of the hit along both half extents, −1 … 1.
     pub position: [f64; 2],
+    /// Speed at which surfaces slide over each other, m/s.
     pub slip_speed: f64,
+    /// Force that presses sliding surfaces together, N.
     pub normal_force: f64,
+    /// Speed of the air, m/s.
     pub wind_speed: f64,
+    /// Direction of the wind seen from above, rad: 0 away from the visitor, positive to the right.
     pub wind_direction: f64,
+    /// Relative gust, about ±1.
     pub gust: f64,
 }
 

@@ -31,6 +31,9 @@ pub struct Preset {
 
 impl Preset {
     /// A shipped preset by name.
+    ///
+    /// # Errors
+    /// There is no shipped preset of this name; the message names similar ones.
     pub fn shipped(name: &str) -> Result<Self, TimbreError> {
         match source(name) {
             Some(text) => Self::parse(name, text),
@@ -39,12 +42,18 @@ impl Preset {
     }
 
     /// A preset from its text; `name` must be the name inside.
+    ///
+    /// # Errors
+    /// The text is no valid preset; the message says where and why.
     pub fn parse(name: &str, text: &str) -> Result<Self, TimbreError> {
         let table = read::table(name, text)?;
         Self::from_table(name, table).map_err(|e| TimbreError { line: read::line(text, &e.key), ..e })
     }
 
     /// A preset from a parsed table (with values replaced, say, by a command line).
+    ///
+    /// # Errors
+    /// The table is no valid preset; the message says where and why.
     pub fn from_table(name: &str, table: toml::Table) -> Result<Self, TimbreError> {
         let preset = read::preset(name, table)?;
         preset.check(name)?;
@@ -59,7 +68,7 @@ impl Preset {
         })
     }
 
-    /// The wind or a slide plays it all the time; otherwise hits play it, one by one.
+    /// Is it a sustained sound, which wind or a slide plays? Otherwise each hit plays it once.
     pub fn continuous(&self) -> bool {
         self.player() != Player::Hit
     }

@@ -9,11 +9,11 @@ use super::preset::Preset;
 use super::source::{COMMON, Common, Modal, SOURCES, Source};
 use super::specimen::Specimen;
 
-/// Likeness (Jaro–Winkler) below which two names have nothing to do with each other.
+/// Jaro–Winkler likeness from which a known name is proposed for an unknown one: chosen by trying misspellings.
 const LIKENESS: f64 = 0.75;
 /// Deepest nesting of a preset; what is deeper is hostile.
 const DEEPEST: usize = 32;
-/// Longest preset, bytes.
+/// Longest preset, bytes: 1 MiB, a bound on hostile files.
 const LONGEST: usize = 1 << 20;
 
 /// `; did you mean "x"?`, or which there are.

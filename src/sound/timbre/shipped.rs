@@ -1,6 +1,6 @@
 //! The presets that the program ships.
 
-/// In the order in which they are listed.
+/// Names and texts of the shipped timbres, in the order in which they are listed.
 const SHIPPED: &[(&str, &str)] = &[
     ("plate", include_str!("../timbres/plate.toml")),
     ("bell", include_str!("../timbres/bell.toml")),

@@ -12,7 +12,7 @@ pub struct Modal {
     /// Where the partials come from.
     #[serde(flatten)]
     pub source: Source,
-    /// What does not depend on that.
+    /// Keys that every source of partials has.
     #[serde(flatten)]
     pub common: Common,
 }
@@ -91,7 +91,7 @@ pub struct MaterialOverride {
     pub shear_modulus: Option<f64>,
     /// ν.
     pub poisson: Option<f64>,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: Option<f64>,
     /// η of the installed body: c = π η f, T60 = 2.2/(η f).
     pub loss_factor: Option<f64>,
@@ -101,7 +101,7 @@ pub struct MaterialOverride {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Plate {
-    /// Instead of the body's.
+    /// Constants of the material that replace the body's.
     #[serde(default)]
     pub material: MaterialOverride,
 }
@@ -143,10 +143,10 @@ pub enum BeamModel {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Tube {
-    /// Theory.
+    /// Beam theory that gives the frequencies and shapes.
     #[serde(default)]
     pub model: BeamModel,
-    /// L, m; without it, the body's.
+    /// Length L, m; without it, the body's.
     pub length: Option<f64>,
     /// Outer diameter, m; without it, the body's.
     pub outer: Option<f64>,
@@ -164,7 +164,7 @@ pub struct Tube {
     /// Whether the sound itself takes energy away, beside the loss factor.
     #[serde(default)]
     pub radiation_loss: bool,
-    /// Instead of the body's.
+    /// Constants of the material that replace the body's.
     #[serde(default)]
     pub material: MaterialOverride,
 }
@@ -173,22 +173,22 @@ pub struct Tube {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Bar {
-    /// Theory.
+    /// Beam theory that gives the frequencies and shapes.
     #[serde(default)]
     pub model: BeamModel,
-    /// L, m; without it, the body's.
+    /// Length L, m; without it, the body's.
     pub length: Option<f64>,
-    /// m; without it, the body's.
+    /// Width, across the direction of bending, m; without it, the body's.
     pub width: Option<f64>,
-    /// In the direction of bending, m; without it, the body's.
+    /// Thickness, in the direction of bending, m; without it, the body's.
     pub thickness: Option<f64>,
-    /// Where it lies or hangs, 0…1 of its length.
+    /// Where it lies or hangs, as a share of its length, 0 … 1. The node of the first mode is at 0.2242.
     #[serde(default = "first_node")]
     pub hang: f64,
     /// Whether the sound itself takes energy away, beside the loss factor.
     #[serde(default)]
     pub radiation_loss: bool,
-    /// Instead of the body's.
+    /// Constants of the material that replace the body's.
     #[serde(default)]
     pub material: MaterialOverride,
 }
@@ -197,16 +197,16 @@ pub struct Bar {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Strung {
-    /// L, m; without it, the body's.
+    /// Length L, m; without it, the body's.
     pub length: Option<f64>,
     /// Tension, N: v = √(T L/m). Without it, longitudinal waves: v = √(E/ρ).
     pub tension: Option<f64>,
     /// Mass, kg; without it, the body's.
     pub mass: Option<f64>,
-    /// B, of the string's stiffness.
+    /// Inharmonicity B by the string's stiffness, without a unit.
     #[serde(default)]
     pub inharmonicity: f64,
-    /// Instead of the body's.
+    /// Constants of the material that replace the body's.
     #[serde(default)]
     pub material: MaterialOverride,
 }
@@ -215,9 +215,9 @@ pub struct Strung {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct MassSpring {
-    /// k, N/m.
+    /// Stiffness k of the spring, N/m.
     pub stiffness: f64,
-    /// m, kg; without it, the body's.
+    /// Mass m, kg; without it, the body's.
     pub mass: Option<f64>,
     /// Time to fall by 60 dB, s.
     pub t60: f64,
@@ -236,13 +236,13 @@ pub struct Drawn {
     pub spacing: Spacing,
     /// T60 at `low` and at `high`, s; c = c₀ + c₂ ω² between. The second is not above the first.
     pub t60: [f64; 2],
-    /// Each T60 is multiplied by something between 1/s and s.
+    /// s: each T60 is multiplied by a random factor between 1/s and s.
     #[serde(default = "unity")]
     pub t60_spread: f64,
     /// Level of `high` against `low`, dB per octave.
     #[serde(default)]
     pub tilt: f64,
-    /// Which draw.
+    /// Seed of the draw.
     #[serde(default)]
     pub seed: u64,
 }
@@ -262,7 +262,7 @@ pub enum Spacing {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// Instead of the body's.
+    /// Constants of the material that replace the body's.
     #[serde(default)]
     pub material: MaterialOverride,
 }

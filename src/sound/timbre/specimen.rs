@@ -12,7 +12,7 @@ use soffio_math::PI;
 pub struct Specimen {
     /// What its dimensions are those of.
     pub shape: Shape,
-    /// m.
+    /// Length, m.
     pub length: f64,
     /// Of a disc or tube: its diameter; m.
     pub width: f64,
@@ -24,7 +24,7 @@ pub struct Specimen {
     pub youngs_modulus: f64,
     /// ν.
     pub poisson: f64,
-    /// kg/m³.
+    /// Density, kg/m³.
     pub density: f64,
     /// η.
     pub loss_factor: f64,

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
-use soffio_config::{Chord, Config};
+use soffio_config::{Chord, Config, Modifiers};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
@@ -38,7 +38,7 @@ fn places(exhibit: &Arc<Exhibit>) -> ([f64; 2], [f64; 2]) {
 
 fn send(visitor: &mut Visitor, signal: Signal) -> Option<Request> {
     static CHORDS: LazyLock<[Chord; 4]> =
-        LazyLock::new(|| ["S", "M", "N", "O"].map(|key| Chord::new(true, true, false, key)));
+        LazyLock::new(|| ["S", "M", "N", "O"].map(|key| Chord::new(Modifiers::CTRL_ALT, key)));
     let [staff, mute, night, open] = &*CHORDS;
     visitor.signal(&signal, Keys { staff, mute, night, open, blow: "Space", read: "R", menu: false }, false)
 }

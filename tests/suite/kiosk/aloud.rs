@@ -10,6 +10,7 @@ use soffio_detector::BlowDetector;
 use soffio_devices::audio::{LOUDEST, Utterance};
 use soffio_kiosk::pages::read_aloud::{ReadAloud, keeps_reading};
 use soffio_kiosk::pages::speech_synthesis::SpeechSynthesizer;
+use soffio_kiosk::pages::speech_text::SpokenText;
 use soffio_kiosk::pages::ui_strings::TextId;
 use soffio_kiosk::visitor::input::Request;
 use soffio_offline::wav;
@@ -160,11 +161,7 @@ fn every_button_of_the_page_has_a_name_in_every_language() {
         visitor.look_with(|scene| {
             for (_, request) in buttons.iter().filter(|(_, request)| *request != Request::Nothing) {
                 let said = soffio_kiosk::pages::speech_text::button(*request, scene);
-                assert!(
-                    said.iter().all(|(text, _)| !text.is_empty()) && said.len() == 1,
-                    "{}: {request:?}",
-                    own.code()
-                );
+                assert!(said.iter().all(|one| !one.text.is_empty()) && said.len() == 1, "{}: {request:?}", own.code());
             }
         });
     }
@@ -206,7 +203,8 @@ fn system() -> Option<SpeechSynthesizer> {
 /// What it says of the fish, in English.
 fn speech(speaker: &SpeechSynthesizer) -> Utterance {
     let label = load("steel-fish").labels.get("en").expect("a label").clone();
-    let making = speaker.start(vec![(format!("{}. {}", label.alt, label.body), "en".into())], RATE);
+    let description = SpokenText { text: format!("{}. {}", label.alt, label.body), language: "en".into() };
+    let making = speaker.start(vec![description], RATE);
     wait("the words", || making.poll()).expect("it speaks")
 }
 

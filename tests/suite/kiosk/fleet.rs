@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
-use soffio_kiosk::fleet::metrics::{MetricsInput, text};
+use soffio_kiosk::fleet::metrics::{ContentVersion, MetricsInput, text};
 use soffio_kiosk::fleet::persisted::PersistedState;
 use soffio_kiosk::fleet::visits::{DWELL_S, FRAME_S, Histogram};
 use soffio_kiosk::live::{LiveState, RunStatus};
@@ -36,7 +36,7 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
     kept.counters.languages.insert("a\"b\\".into(), 1);
     let mut frames = Histogram::default();
     (0..10).for_each(|_| frames.record(FRAME_S, 0.016));
-    let content = ("pendulum", "00ff");
+    let content = ContentVersion { exhibit: "pendulum", version: "00ff" };
     let text = text(
         &frame(load),
         &MetricsInput { persisted: &kept, frames: &frames, safe: true, reloads: false, foam_lasts: 100, content },
@@ -93,12 +93,11 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
         safe: false,
         reloads: true,
         foam_lasts: 5000,
-        content: ("pendulum", ""),
+        content: ContentVersion { exhibit: "pendulum", version: "" },
     };
     let mut exported = text(&frame(RunStatus::default()), &numbers);
     // These are exported only once they have a value.
-    exported +=
-        "kiosk_chirp_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
+    exported += "kiosk_audio_self_test_bad\nkiosk_blows_total\nkiosk_language_total\nkiosk_laeq_minute_db\nkiosk_level_minute_db\n";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("kiosk-config/prometheus");
     let mut queried = 0;
     for file in ["soffio.rules.yml", "soffio.grafana.json"] {

@@ -83,7 +83,7 @@ fn what_stands_still_is_at_rest_after_half_a_second_and_each_sign_ends_it_in_its
         moment.dust_particles.push(DustParticle { brightness: 0.9 * BRIGHT, ..DustParticle::default() })
     });
     assert!(watch.step(|_| ()));
-    // Another work begins anew, even a copy of the same.
+    // Another work starts again, even a copy of the same.
     watch.exhibit = Arc::new((*watch.exhibit).clone());
     assert!(!watch.step(|_| ()));
 }

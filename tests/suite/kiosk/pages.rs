@@ -331,7 +331,7 @@ fn the_page_closes_by_itself_after_half_a_minute_and_at_a_breath() {
     visitor.look();
     visitor.time += 29.0;
     visitor.look();
-    assert!(visitor.menu.open, "a touch begins the time anew");
+    assert!(visitor.menu.open, "a touch restarts the time");
     visitor.time += 2.0;
     visitor.look();
     assert!(!visitor.menu.open);

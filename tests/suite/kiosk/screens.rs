@@ -1,5 +1,5 @@
 //! The pictures of the manual: each screen that a visitor meets, in each language of the works, made from the code that draws
-//! them. `SOFFIO_PICTURES=kiosk-config/pictures cargo test --test suite screens -- --ignored` makes them anew.
+//! them. `SOFFIO_PICTURES=kiosk-config/pictures cargo test --test suite screens -- --ignored` makes them again.
 
 use std::path::PathBuf;
 

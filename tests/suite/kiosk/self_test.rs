@@ -1,10 +1,10 @@
-//! The nightly chirp in simulated rooms: a delay, reflections, a filter for what is wrong, the room's noise.
+//! The nightly audio self-test in simulated rooms: a delay, reflections, a filter for what is wrong, the room's noise.
 
 use soffio_config::{Config, Day, TimeOfDay};
 use soffio_devices::audio::output;
 use soffio_devices::audio::{AudioStatus, DeviceState, Knobs};
-use soffio_kiosk::fleet::Fleet;
 use soffio_kiosk::fleet::persisted::{PersistedState, StateStore};
+use soffio_kiosk::fleet::{Fleet, LocalTime};
 use soffio_kiosk::venue::self_test::{REFERENCE_RUNS, SelfTestHistory, Verdict};
 use soffio_kiosk::venue::self_test_run::{SelfTestAction, SelfTestRun};
 use soffio_kiosk::venue::sweep::{RECORDED_S, measure_response, sweep};
@@ -123,13 +123,13 @@ fn somebody_who_cleans_beside_it_alarms_nobody() {
     let heard = recorded(&sweep(RATE), Way { noise: 1.0, ..CLEAN }, 3);
     let verdict = history.record(&Ok(measure_response(&heard, RATE)), String::new()).clone();
     assert!(matches!(verdict, Verdict::Noisy | Verdict::Unheard), "{verdict:?}");
-    assert!(history.clean_db.is_empty());
+    assert!(history.reference_db.is_empty());
 }
 
 #[test]
 fn a_microphone_with_a_clock_of_its_own_hears_the_same() {
     let history = settled();
-    let usual = history.clean_db[0];
+    let usual = history.reference_db[0];
     // Ninety millionths fast.
     let heard = recorded(&sweep(RATE + 4), CLEAN, 5);
     let levels = measure_response(&heard, RATE).levels_db;
@@ -184,12 +184,16 @@ fn without_a_device_it_ends_and_says_which() {
 }
 
 #[test]
-fn it_chirps_once_a_day_and_waits_for_whoever_is_there() {
+fn it_runs_once_a_day_and_waits_for_whoever_is_there() {
     let mut fleet = Fleet::start(StateStore::default(), PersistedState::default(), false, &Config::default());
     let day = |day| Day { year: 2027, month: 3, day, weekday: 0 };
     let at = Some(TimeOfDay::from_minutes(23 * 60 + 40));
-    let mut requested =
-        |days: [u8; 2], minutes| fleet.self_test_is_due(at, days.map(day), TimeOfDay::from_minutes(minutes), false);
+    let moment = |[today, yesterday]: [u8; 2], minutes| LocalTime {
+        today: day(today),
+        yesterday: day(yesterday),
+        time: TimeOfDay::from_minutes(minutes),
+    };
+    let mut requested = |days: [u8; 2], minutes| fleet.self_test_is_due(at, moment(days, minutes), false);
     assert!(!requested([2, 1], 23 * 60 + 39));
     assert!(requested([2, 1], 23 * 60 + 40));
     assert!(!requested([2, 1], 23 * 60 + 41), "once");
@@ -197,7 +201,7 @@ fn it_chirps_once_a_day_and_waits_for_whoever_is_there() {
     assert!(requested([3, 2], 23 * 60 + 50));
     assert!(!requested([4, 3], 45), "too late");
     assert!(requested([5, 4], 20), "the hour of the fourth, which nobody was there for");
-    assert!(!fleet.self_test_is_due(None, [day(9), day(8)], TimeOfDay::from_minutes(0), false), "staff only");
+    assert!(!fleet.self_test_is_due(None, moment([9, 8], 0), false), "staff only");
 }
 
 #[test]

@@ -56,7 +56,7 @@ fn what_cannot_change_while_running_is_named_and_nothing_else() {
 }
 
 #[test]
-fn changed_breath_settings_begin_the_work_anew_and_others_leave_it_alone() {
+fn changed_breath_settings_restart_the_work_and_others_leave_it_alone() {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/pendulum");
     let pendulum = std::sync::Arc::new(exhibit::load(&folder).expect("the shipped exhibit is valid"));
     let mut stage = Stage::new(pendulum, Settings::default(), None, None);

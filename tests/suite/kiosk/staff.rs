@@ -53,7 +53,7 @@ fn the_right_pin_opens_a_wrong_one_waits_ever_longer_and_closing_changes_nothing
         let pause = f64::from(1 << wrong).min(LONGEST_S);
         assert!(!gate.is_open() && gate.wrong() == wrong, "try {wrong}");
         assert_eq!(gate.pause(time), Some(pause), "try {wrong}");
-        // Closing and opening the panel, or reading the same configuration anew, shortens nothing.
+        // Closing and opening the panel, or reading the same configuration again, shortens nothing.
         gate.shut();
         gate.set(&pin("2718"));
         enter(&mut gate, "2718", time + pause - 0.001);
@@ -67,7 +67,7 @@ fn the_right_pin_opens_a_wrong_one_waits_ever_longer_and_closing_changes_nothing
     gate.shut();
     assert!(!gate.is_open(), "the next one is asked again");
     enter(&mut gate, "1234", time);
-    assert_eq!(gate.pause(time), Some(2.0), "a right PIN began the count anew");
+    assert_eq!(gate.pause(time), Some(2.0), "a right PIN restarted the count");
     let other = {
         enter(&mut gate, "2718", time + 2.0);
         assert!(gate.is_open());
@@ -367,7 +367,7 @@ fn with_a_pin_the_panel_asks_for_it_and_opens_by_keyboard_and_by_finger() {
         staff.staff.toggle();
         staff.staff.toggle();
         staff.look(Vec::new());
-        assert!(!staff.says("joint error"), "it is asked anew");
+        assert!(!staff.says("joint error"), "it is asked again");
     }
 }
 
@@ -409,7 +409,7 @@ fn nobody_at_the_panel_for_its_time_closes_it() {
     staff.look(Vec::new());
     staff.time += staff.site.staff.closes_s - 1.0;
     staff.look(Vec::new());
-    assert!(staff.staff.is_open(), "a touch begins the time anew");
+    assert!(staff.staff.is_open(), "a touch restarts the time");
     staff.time += 2.0;
     staff.look(Vec::new());
     assert!(!staff.staff.is_open());

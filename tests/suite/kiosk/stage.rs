@@ -375,7 +375,7 @@ fn what_the_governor_chose_repeats_to_the_bit() {
 }
 
 #[test]
-fn a_reloaded_exhibit_starts_anew_and_the_run_counts_on() {
+fn a_reloaded_exhibit_starts_again_and_the_run_counts_on() {
     let mut stage = Stage::new(steel_fish(), Settings::default(), Some(breath()), None);
     let controls = Controls::default();
     (0..480).for_each(|_| stage.step(&controls, None));
@@ -404,7 +404,7 @@ fn another_exhibit_gathers_its_parts_and_a_press_ends_the_waiting() {
         stage.step(&still, None);
     }
     assert!(away(&stage, &chimes) < 0.01, "they have gathered");
-    // The same one, saved anew by a curator, is there at once.
+    // The same one, saved again by a curator, is there at once.
     stage.swap(chimes.clone(), None);
     stage.step(&still, None);
     assert!(away(&stage, &chimes) < 0.01);

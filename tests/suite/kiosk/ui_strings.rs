@@ -137,7 +137,7 @@ fn a_broken_file_leaves_the_shipped_texts_and_each_problem_has_its_place_and_rem
         let problem = found.iter().find(|problem| problem.message.contains(part));
         let problem = problem.unwrap_or_else(|| panic!("{part}: {found:#?}"));
         assert!(!problem.is_warning && !problem.help.is_empty(), "{problem}");
-        (problem.place, problem.help.as_str())
+        ((problem.line, problem.column), problem.help.as_str())
     };
     assert_eq!(place("unknown key `moer`"), ((2, 1), "did you mean `more`?"));
     assert_eq!(place("syntax error").0.0, 3);
@@ -201,7 +201,7 @@ fn whatever_a_file_holds_it_is_reported_and_never_stops_the_kiosk() {
 }
 
 #[test]
-fn a_text_is_formatted_anew_only_where_a_variable_differs() {
+fn a_text_is_formatted_again_only_where_a_variable_differs() {
     let strings = texts().get("it");
     let format = |count: u64, limit: &'static str| {
         strings

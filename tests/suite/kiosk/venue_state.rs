@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use soffio_config::CLEANING_S;
-use soffio_config::{Chord, Day, Opening};
+use soffio_config::{Chord, Day, Modifiers, Opening};
 use soffio_detector::generate::{self, BreathShape};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
-use soffio_kiosk::venue::state::{OverlayCapture, VenueState};
+use soffio_kiosk::venue::state::{OverlayCapture, SignalContext, VenueState};
 use soffio_kiosk::visitor::gesture::Press;
 use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
 use soffio_simulation::{Microphone, Settings};
@@ -20,7 +20,7 @@ struct Chords([Chord; 4]);
 
 impl Chords {
     fn new() -> Self {
-        Self(["S", "O", "M", "N"].map(|key| Chord::new(true, true, false, key)))
+        Self(["S", "O", "M", "N"].map(|key| Chord::new(Modifiers::CTRL_ALT, key)))
     }
 
     fn keys(&self) -> Keys<'_> {
@@ -30,7 +30,8 @@ impl Chords {
 }
 
 fn key(name: &str, chord: bool) -> Signal {
-    Signal::Key(Key { name: name.into(), pressed: true, repeat: false, ctrl: chord, alt: chord, shift: false })
+    let modifiers = if chord { Modifiers::CTRL_ALT } else { Modifiers::default() };
+    Signal::Key(Key { name: name.into(), pressed: true, repeat: false, modifiers })
 }
 
 /// Everything a hand can do.
@@ -64,7 +65,13 @@ fn while_the_glass_is_cleaned_no_input_does_anything_and_then_all_do_again() {
     for time in [100.0, 130.0, 100.0 + CLEANING_S - 0.01] {
         for signal in signals() {
             for above in [OverlayCapture::default(), OverlayCapture { keys: true, pointer: true }] {
-                let requested = house.signal(time, &mut visitor, &signal, (chords.keys(), above), true);
+                let requested = house.signal(
+                    time,
+                    &mut visitor,
+                    &signal,
+                    SignalContext { keys: chords.keys(), captured: above },
+                    true,
+                );
                 assert_eq!(requested, None, "{signal:?} at {time} s");
             }
         }
@@ -77,7 +84,7 @@ fn while_the_glass_is_cleaned_no_input_does_anything_and_then_all_do_again() {
     }
     let after = 100.0 + CLEANING_S + 0.01;
     assert!(house.accepts_input(after) && house.cleaning_left(after).is_none());
-    let own = (chords.keys(), OverlayCapture::default());
+    let own = SignalContext { keys: chords.keys(), captured: OverlayCapture::default() };
     assert_eq!(house.signal(after, &mut visitor, &key("S", true), own, false), Some(Request::ToggleStaff));
     house.signal(after, &mut visitor, &key("Space", false), own, false);
     assert!(visitor.holds_key());
@@ -87,7 +94,7 @@ fn while_the_glass_is_cleaned_no_input_does_anything_and_then_all_do_again() {
 fn a_closed_house_hears_the_staffs_chords_only_and_is_opened_early_by_one() {
     let (chords, mut house) = (Chords::new(), closed());
     let mut visitor = Visitor::default();
-    let own = (chords.keys(), OverlayCapture::default());
+    let own = SignalContext { keys: chords.keys(), captured: OverlayCapture::default() };
     let requested: Vec<Request> =
         signals().iter().filter_map(|signal| house.signal(1.0, &mut visitor, signal, own, true)).collect();
     assert_eq!(requested, [Request::ToggleStaff, Request::Open, Request::Mute, Request::Night]);
@@ -110,8 +117,8 @@ fn a_closed_house_hears_the_staffs_chords_only_and_is_opened_early_by_one() {
 fn under_the_panel_keys_are_the_panels_and_what_comes_up_is_let_go() {
     let (chords, house) = (Chords::new(), VenueState::default());
     let mut visitor = Visitor::default();
-    let open = (chords.keys(), OverlayCapture::default());
-    let under = (chords.keys(), OverlayCapture { keys: true, pointer: true });
+    let open = SignalContext { keys: chords.keys(), captured: OverlayCapture::default() };
+    let under = SignalContext { keys: chords.keys(), captured: OverlayCapture { keys: true, pointer: true } };
     house.signal(0.0, &mut visitor, &Signal::Touch { finger: 4, at: [0.5; 2], phase: Phase::Down }, open, false);
     assert_eq!(visitor.presses().count(), 1);
     house.signal(0.0, &mut visitor, &Signal::Touch { finger: 4, at: [0.5; 2], phase: Phase::Up }, under, false);

@@ -6,8 +6,10 @@ use crate::step::stage::Stage;
 use soffio_offline::trace::TraceWriter;
 
 /// Trace and record, where requested.
-pub(super) struct Files {
+pub(in crate::live) struct Files {
+    /// Trace of the poses.
     pub trace: Option<TraceWriter>,
+    /// Record of the inputs.
     pub record: Option<Recording>,
 }
 

@@ -14,21 +14,20 @@ use cpu_time::ThreadTime;
 
 use super::live_state::LiveState;
 use super::options::{Options, Report};
-use super::recording::Recording;
 use super::shared::{Shared, local_time, lock};
 use super::step_scheduler::StepScheduler;
 use crate::step::command::Batch;
 use crate::step::controls::Controls;
 use crate::step::stage::Stage;
+use crate::venue::loudness::KioskActivity;
 use crate::venue::site::Site;
-use files::Files;
+pub(super) use files::Files;
 use microphone_input::MicrophoneInput;
 use motion::MotionChoice;
 use playback::Playback;
 use publisher::Publisher;
 use soffio_devices::controllers::{Controllers, Reading};
 use soffio_exhibit::Exhibit;
-use soffio_offline::trace::TraceWriter;
 use soffio_simulation::{InspectionScope, Settings};
 
 /// State of the simulation thread.
@@ -50,9 +49,10 @@ pub(super) struct Thread {
 impl Thread {
     pub(super) fn new(
         stage: Stage,
-        (trace, record): (Option<TraceWriter>, Option<Recording>),
+        files: Files,
         options: Options,
-        (shared, wake): (Arc<Shared>, Box<dyn Fn() + Send>),
+        shared: Arc<Shared>,
+        wake: Box<dyn Fn() + Send>,
     ) -> Self {
         let site = options.site;
         Self {
@@ -60,7 +60,7 @@ impl Thread {
             stage,
             limit: options.steps.unwrap_or(u64::MAX),
             recorded: options.recording.is_some(),
-            files: Files { trace, record },
+            files,
             motion: MotionChoice::new(options.mode, options.exhibit.motion),
             playback: Playback::start(&site, &options.exhibit, options.closed),
             microphone: MicrophoneInput::new(options.closed),
@@ -147,7 +147,8 @@ impl Thread {
             self.playback.audio.say(&speech);
         }
         let self_test_db = is_testing.then_some(self.site.audio.volume_db);
-        self.playback.set_loudness(loudness, (self.stage.attracts(), controls.closed), self_test_db);
+        let activity = KioskActivity { attracts: self.stage.attracts(), closed: controls.closed };
+        self.playback.set_loudness(loudness, activity, self_test_db);
         let look = controls.look;
         self.publisher.inspection = (look != InspectionScope::Nothing).then(|| Arc::new(self.stage.inspect(look)));
         Ok(rate.is_some() && !self.publisher.load.microphone.is_silent() || self.recorded)
@@ -160,13 +161,13 @@ impl Thread {
         if before.controllers != self.site.controllers {
             self.controllers = Controllers::start(&self.site.controllers);
         }
-        let anew = before.settings != self.site.settings;
-        if anew {
+        let changed = before.settings != self.site.settings;
+        if changed {
             self.files.end(&self.stage);
         }
         self.stage.reconfigure(Settings { clock: local_time(), ..self.site.settings }, self.site.idle_s);
-        if anew {
-            self.begin_anew();
+        if changed {
+            self.restart();
         }
     }
 
@@ -176,12 +177,12 @@ impl Thread {
         self.motion.swap(exhibit.motion);
         self.files.end(&self.stage);
         self.stage.swap(exhibit, local_time());
-        self.begin_anew();
+        self.restart();
     }
 
-    fn begin_anew(&mut self) {
+    fn restart(&mut self) {
         self.files.begin(&self.stage);
-        self.publisher.begin_anew(&self.stage);
+        self.publisher.restart(&self.stage);
     }
 
     fn publish(&mut self, due: Instant, hears: bool) {

@@ -2,7 +2,7 @@
 
 use crate::step::instruments::{Audition, AuditionInstrument, AuditionTarget, SynthSetup, hit};
 use crate::step::stage::Stage;
-use crate::venue::loudness::{Loudness, VolumeRequests};
+use crate::venue::loudness::{KioskActivity, Loudness, LoudnessSettings, OutputCount, VolumeRequests};
 use crate::venue::site::Site;
 use soffio_config::AudioSettings;
 use soffio_devices::audio::AudioIo;
@@ -12,7 +12,9 @@ use soffio_sound::SoundCommand;
 
 /// Sound output. The devices are opened together, so the microphone is read through it too.
 pub(super) struct Playback {
+    /// Devices of the sound.
     pub audio: AudioIo,
+    /// Loudness control.
     pub loudness: Loudness,
     /// Sounds of the present steps.
     pub sounds: Vec<SoundCommand>,
@@ -28,7 +30,7 @@ impl Playback {
         let synth_setup = synth_setup(site);
         Self {
             audio: AudioIo::start_with(&site.audio, site.breath && !closed, synth_setup.synth(exhibit, None)),
-            loudness: Loudness::new(site.volume, site.night.clone(), site.silent_attract),
+            loudness: Loudness::new(loudness_settings(site)),
             sounds: Vec::new(),
             synth_setup,
             audition_instrument: None,
@@ -47,9 +49,10 @@ impl Playback {
         } else if self.synth_setup != synth_setup(before) || before.settings != site.settings {
             self.audio.set_instruments(self.synth_setup.synth(exhibit, self.audition_instrument.as_ref()));
         }
-        let loud = |site: &Site| (site.volume, site.night.clone(), site.silent_attract);
-        if reopens || loud(before) != loud(site) {
-            self.loudness.reconfigure(site.volume, site.night.clone(), site.silent_attract, reopens);
+        let loudness = loudness_settings(site);
+        if reopens || loudness_settings(before) != loudness {
+            let output = if reopens { OutputCount::Restarted } else { OutputCount::Continued };
+            self.loudness.reconfigure(loudness, output);
         }
     }
 
@@ -102,14 +105,19 @@ impl Playback {
     pub(super) fn set_loudness(
         &mut self,
         requests: VolumeRequests,
-        (attracts, closed): (bool, bool),
+        activity: KioskActivity,
         self_test_db: Option<f64>,
     ) {
-        self.loudness.update(requests, (attracts, closed), self.audio.knobs());
+        self.loudness.update(requests, activity, self.audio.knobs());
         if let Some(volume_db) = self_test_db {
             self.audio.knobs().set_volume(db_to_amplitude(volume_db) as f32);
         }
     }
+}
+
+/// Settings of the loudness by the site.
+fn loudness_settings(site: &Site) -> LoudnessSettings {
+    LoudnessSettings { volume: site.volume, night: site.night.clone(), silent_attract: site.silent_attract }
 }
 
 /// Settings of the synthesizer by the site.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::super::live_state::{LiveState, Onset, RunStatus};
-use crate::step::breaths::{BreathEvent, BreathLog};
+use crate::step::breaths::{BreathDevices, BreathEvent, BreathLog};
 use crate::step::captions::Captions;
 use crate::step::frame_interpolation::SnapshotHistory;
 use crate::step::idle_detection::IdleDetector;
@@ -13,6 +13,7 @@ use soffio_simulation::{Inspection, STEPS_PER_SECOND};
 
 /// Collects the results of steps for the next [`LiveState`].
 pub(super) struct Publisher {
+    /// Counts and states of devices, for the status page.
     pub load: RunStatus,
     /// Inspection for staff.
     pub inspection: Option<Arc<Inspection>>,
@@ -44,7 +45,7 @@ impl Publisher {
     }
 
     /// The exhibit restarts: captions, history and onset are cleared.
-    pub(super) fn begin_anew(&mut self, stage: &Stage) {
+    pub(super) fn restart(&mut self, stage: &Stage) {
         self.captions = Captions::default();
         self.history = SnapshotHistory::new(stage.snapshot());
         self.onset = None;
@@ -64,7 +65,8 @@ impl Publisher {
     /// Logs and counts the breaths that began or ended in a step; `strength` is that of a controller, 0 … 1.
     pub(super) fn record_breaths(&mut self, stage: &Stage, strength: f64) {
         let (step, breath) = (stage.steps(), &stage.snapshot().breath);
-        for turn in self.breaths.record(step, breath, (stage.holds(), strength), stage.attracts()) {
+        for turn in self.breaths.record(step, breath, BreathDevices { hold: stage.holds(), strength }, stage.attracts())
+        {
             self.load.blows.record(&turn);
             if matches!(turn, BreathEvent::Begins(..)) {
                 self.onset = Some(Onset { step: stage.snapshot().step, at: Instant::now() });

@@ -42,8 +42,10 @@ pub struct TextProblem {
     pub file: PathBuf,
     /// Bytes of the file that it is about; `None` where it is about the whole file.
     pub span: Option<Range<usize>>,
-    /// Line and column in characters, from 1; 0 where it is about the whole file.
-    pub place: (usize, usize),
+    /// Line, from 1; 0 where it is about the whole file.
+    pub line: usize,
+    /// Column in characters, from 1; 0 where it is about the whole file.
+    pub column: usize,
     /// What is wrong.
     pub message: String,
     /// What to do.
@@ -55,8 +57,8 @@ pub struct TextProblem {
 impl fmt::Display for TextProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.file.display())?;
-        if let (line @ 1.., column) = self.place {
-            write!(f, ":{line}:{column}")?;
+        if self.line > 0 {
+            write!(f, ":{}:{}", self.line, self.column)?;
         }
         write!(f, ": {}\n  help: {}", self.message, self.help)
     }
@@ -80,7 +82,7 @@ impl TextFile {
     pub fn read(path: &Path) -> (Option<Self>, Vec<TextProblem>) {
         let whole = |message: String, help: &str| {
             let (file, help) = (path.to_path_buf(), help.to_owned());
-            (None, vec![TextProblem { file, span: None, place: (0, 0), message, help, is_warning: false }])
+            (None, vec![TextProblem { file, span: None, line: 0, column: 0, message, help, is_warning: false }])
         };
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let Some(language) = canonical(&stem) else {
@@ -118,7 +120,7 @@ impl TextFile {
             found.missing(&language, &keys);
         }
         let mut problems = found.problems;
-        problems.sort_by_key(|problem| problem.place);
+        problems.sort_by_key(|problem| (problem.line, problem.column));
         (usable.then(|| Self { language, resource: Arc::new(resource) }), problems)
     }
 }
@@ -132,9 +134,9 @@ struct Findings<'a> {
 
 impl Findings<'_> {
     fn error(&mut self, span: Range<usize>, message: String, help: String) {
-        let place = line_and_column(self.text, span.start);
+        let (line, column) = line_and_column(self.text, span.start);
         let file = self.file.to_path_buf();
-        self.problems.push(TextProblem { file, span: Some(span), place, message, help, is_warning: false });
+        self.problems.push(TextProblem { file, span: Some(span), line, column, message, help, is_warning: false });
     }
 
     fn warning(&mut self, span: Range<usize>, message: String, help: String) {

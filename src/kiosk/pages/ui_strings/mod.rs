@@ -136,7 +136,7 @@ impl UiStrings {
         self.constant[id as usize].as_deref().unwrap_or_else(|| id.key())
     }
 
-    /// A message with its variables. Formatted anew only where a variable differs from those of the last few calls.
+    /// A message with its variables. Formatted again only where a variable differs from those of the last few calls.
     pub fn format(&self, id: TextId, variables: &[(&str, Variable)]) -> Arc<str> {
         debug_assert!(has_all(id, variables), "{}: {variables:?}", id.key());
         let mut remembered = self.formatted[id as usize].lock().unwrap_or_else(PoisonError::into_inner);

@@ -88,7 +88,7 @@ text_ids! {
     StaffReload = "staff-reload",
     StaffOpenNow = "staff-open-now",
     StaffCloseAgain = "staff-close-again",
-    StaffChirp = "staff-chirp",
+    StaffAudioSelfTest = "staff-audio-self-test",
     StaffNewFoam = "staff-new-foam",
     StaffNewReference = "staff-new-reference",
     StaffEnd = "staff-end",

@@ -31,7 +31,8 @@ enum Change {
 }
 
 impl Exhibits {
-    /// Draws it.
+    /// Draws the page. `may`: may staff change anything? `actions` and `changes` receive what they press and save; `said`
+    /// receives the answer that the panel shows.
     pub fn show(
         &mut self,
         ui: &mut Ui,

@@ -1,5 +1,5 @@
 //! The work's numbers, dragged and written back into its sidecar, comments and units kept. The shelf sees the saved file
-//! and shows the work anew; where it does not load any more, the last good one stays on show and a press takes the
+//! and shows the work again; where it does not load any more, the last good one stays on show and a press takes the
 //! change back.
 
 use std::path::{Path, PathBuf};

@@ -19,7 +19,7 @@ pub struct TimeSeries {
 
 impl TimeSeries {
     /// Adds a value at a time, s; one that was there already is not added again. A time before the last one, as after a
-    /// reset, begins anew.
+    /// reset, starts again.
     pub fn push(&mut self, time: f64, value: f64) {
         match self.values.back() {
             Some((last, _)) if *last == time => return,

@@ -50,7 +50,7 @@ fn buttons(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAc
             }
             if input.site.visit.breath {
                 all.extend([
-                    (TextId::StaffChirp, StaffAction::SelfTest),
+                    (TextId::StaffAudioSelfTest, StaffAction::SelfTest),
                     (TextId::StaffNewFoam, StaffAction::FoamChanged),
                     (TextId::StaffNewReference, StaffAction::ResetSelfTest),
                 ]);
@@ -227,8 +227,8 @@ fn loudness(ui: &mut Ui, input: &PanelInput) {
     let (loud, texts) = (&input.frame.load.loudness, input.texts);
     let (db, steps) = (format!("{:.1}", loud.volume_db).into(), format!("{:+}", loud.steps).into());
     let mut volume = texts.format(TextId::StaffVolumeIs, &[("db", db), ("steps", steps)]);
-    if loud.eased_db > 0.0 {
-        let variables = [("volume", (&*volume).into()), ("db", format!("{:.1}", loud.eased_db).into())];
+    if loud.exposure_attenuation_db > 0.0 {
+        let variables = [("volume", (&*volume).into()), ("db", format!("{:.1}", loud.exposure_attenuation_db).into())];
         volume = texts.format(TextId::StaffVolumeAttenuated, &variables);
     }
     if loud.muted {

@@ -7,7 +7,9 @@ use soffio_devices::audio::DeviceState;
 
 /// State for staff.
 pub(crate) struct StaffDesk {
+    /// The staff panel.
     pub panel: StaffPanel,
+    /// The last lines of the log, for the panel.
     pub log: Log,
     /// Is the cursor shown?
     cursor: bool,

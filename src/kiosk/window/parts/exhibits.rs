@@ -7,7 +7,9 @@ use soffio_config::Config;
 
 /// Exhibits that visitors can choose from.
 pub(crate) struct ExhibitSelection {
+    /// Loads exhibits on a thread of its own.
     pub loader: CatalogLoader,
+    /// The exhibits on offer, in their order.
     pub offer: Catalog,
     /// Pictures of the exhibits, by id.
     pub thumbnails: Vec<(String, egui::TextureHandle)>,

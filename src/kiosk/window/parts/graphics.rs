@@ -15,13 +15,15 @@ const LOST_DEVICES: u32 = 3;
 
 /// State of the graphics.
 pub(crate) struct Graphics {
+    /// Instance from which devices and surfaces are made.
     pub instance: wgpu::Instance,
     /// Reloads changed shaders.
     pub shader_watcher: Option<ShaderWatcher>,
+    /// Sway of the camera in attract mode.
     pub camera_sway: CameraSway,
     /// State that the frame shows; reused to avoid allocations.
     pub moment: Snapshot,
-    /// Time at which the device is destroyed once, s.
+    /// Time since the start at which the device is destroyed once, as a test of its replacement, s.
     pub lose_device_at: Option<f64>,
     lost: u32,
 }
@@ -40,6 +42,9 @@ impl Graphics {
     }
 
     /// Opens a device for a window.
+    ///
+    /// # Errors
+    /// There is no adapter that can draw to the window; the reason.
     pub fn open(&self, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Screen, String> {
         Screen::new(self.instance.clone(), window, exhibit)
     }
@@ -50,6 +55,9 @@ impl Graphics {
     }
 
     /// Opens a new device in place of a lost one; the error says why there is none.
+    ///
+    /// # Errors
+    /// There is no adapter that can draw to the window; the reason.
     pub fn replace(&mut self, window: Arc<Window>, exhibit: &Arc<Exhibit>) -> Result<Screen, String> {
         self.lost += 1;
         if self.lost > LOST_DEVICES {

@@ -15,7 +15,9 @@ pub(crate) struct Lifecycle<'a> {
     pub waiting: Option<Options>,
     /// Wakes the event loop from idle rendering.
     pub waker: EventLoopProxy<()>,
+    /// What was missing at the start, if anything was.
     pub missing: Option<Missing>,
+    /// Why the run fails, once it does.
     pub failure: Option<String>,
 }
 

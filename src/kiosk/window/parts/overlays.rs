@@ -14,9 +14,13 @@ const INVITES_S: f64 = 6.0;
 
 /// Overlays of the picture.
 pub(crate) struct Overlays {
+    /// Overlay with its animations.
     pub overlay: Overlay,
+    /// The page of visitors.
     pub menu: Menu,
+    /// Reading aloud.
     pub read_aloud: ReadAloud,
+    /// Languages on offer and on show.
     pub languages: Languages,
     /// The kiosk's own texts.
     pub translations: Translations,
@@ -56,6 +60,7 @@ impl Overlays {
 
 /// Languages a visitor can choose from, and the one chosen.
 pub(crate) struct Languages {
+    /// Codes of the languages on offer, in their order.
     pub offered: Vec<String>,
     /// Languages that the fonts of this system cannot write.
     without_glyphs: Vec<String>,
@@ -70,7 +75,7 @@ impl Languages {
         Self { offered: Vec::new(), without_glyphs, shown: String::new() }
     }
 
-    /// Offers the languages of an exhibit. If it lacks the one on show, the first is shown.
+    /// Offers the languages of the exhibit's labels. If the language on show is not among them, the default one is shown.
     pub fn offer(&mut self, context: &egui::Context, exhibit: &Exhibit, config: &Config, translations: &Translations) {
         self.offered = offered(context, &exhibit.labels, config, translations, &self.without_glyphs);
         if !self.offered.contains(&self.shown) {

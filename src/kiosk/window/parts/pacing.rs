@@ -16,8 +16,11 @@ const COMMON_REFRESH: f64 = 1.0 / 60.0;
 /// State of frame pacing.
 #[derive(Default)]
 pub(crate) struct Pacing {
+    /// Times of frames.
     pub clock: FrameClock,
+    /// Latency from the onset of a breath to the picture.
     pub onset_latency: OnsetLatency,
+    /// Choice of the quality tier.
     pub quality: QualityController,
     idle: IdleRendering,
     /// Number of window events so far, except redraws.
@@ -28,6 +31,7 @@ pub(crate) struct Pacing {
 /// Counts of frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
+    /// Number of frames that were shown.
     pub shown: u64,
     /// Idle ones among them.
     pub at_rest: u64,
@@ -35,11 +39,21 @@ pub(crate) struct Counts {
     pub dark: u64,
 }
 
+/// Motion of exhibit and page in a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameMotion {
+    /// Is the exhibit idle?
+    pub still: bool,
+    /// Does something on the page fade, fill or close, or is a panel open?
+    pub page_moves: bool,
+}
+
 /// A started frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameStart {
     /// Start of this frame, and of the one before.
     pub now: Instant,
+    /// Start of the frame before.
     pub last: Instant,
     /// Did it wait in idle rendering?
     pub rested: bool,
@@ -79,7 +93,8 @@ impl Pacing {
     }
 
     /// Starts a frame; the next one is due after `least` seconds.
-    pub fn begin(&mut self, now: Instant, still: bool, page_moves: bool, least: f64) -> FrameStart {
+    pub fn begin(&mut self, now: Instant, motion: FrameMotion, least: f64) -> FrameStart {
+        let FrameMotion { still, page_moves } = motion;
         let (last, rested) = (self.clock.last, self.idle.is_idle());
         let rests = self.idle.update(self.clock.seconds(now), FrameActivity { still, page_moves, inputs: self.inputs });
         let shown = self.clock.tick(now, if rests { least.max(IDLE_FRAME_S) } else { least });

@@ -7,7 +7,9 @@ use soffio_config::{Config, LoadedConfig};
 
 /// Configuration of this run.
 pub(crate) struct Setup {
+    /// The configuration, overrides included.
     pub config: Config,
+    /// Watcher of the configuration file; `None` without a file.
     pub file: Option<ConfigWatcher>,
     /// Problems of the configuration for staff: mistakes, old names, and keys that wait for a restart.
     pub problems: Vec<String>,
@@ -44,6 +46,9 @@ impl Setup {
 
     /// Takes over a valid configuration, except the keys that wait for a restart. `safe` says whether the kiosk is in safe
     /// mode. `Err` is returned where nothing has changed, and says whether the file had problems before.
+    ///
+    /// # Errors
+    /// Nothing has changed; the value says whether the file had problems before.
     pub fn take_over(&mut self, loaded: LoadedConfig, safe: bool) -> Result<Change, bool> {
         let was_broken = !self.problems.is_empty();
         self.problems.clear();

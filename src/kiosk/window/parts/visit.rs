@@ -12,17 +12,31 @@ use soffio_config::Config;
 
 /// State of a visit.
 pub(crate) struct VisitState {
+    /// Inputs of the visitor.
     pub visitor: Visitor,
+    /// Modifier keys that are held.
     pub modifiers: ModifiersState,
+    /// Accessibility settings of this visit.
     pub accessibility: AccessibilitySettings,
+    /// Pressing by rest of the pointer.
     pub dwell: Dwell,
     /// Is the microphone on? A visitor can switch it off.
     pub microphone_on: bool,
+    /// Breath time of the visit and of the day.
     pub breath_time: BreathTime,
     /// Is attract mode playing?
     attracts: bool,
     /// Was a visitor present at the last frame?
     visited: bool,
+}
+
+/// Who is there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Presence {
+    /// Does attract mode play?
+    pub attracts: bool,
+    /// Is a visitor present?
+    pub visited: bool,
 }
 
 impl VisitState {
@@ -58,7 +72,8 @@ impl VisitState {
     }
 
     /// Is the visit over? It ends when attract mode begins or, without attract mode, when nobody is present any more.
-    pub fn ends(&mut self, attracts: bool, visited: bool, config: &Config) -> bool {
+    pub fn ends(&mut self, presence: Presence, config: &Config) -> bool {
+        let Presence { attracts, visited } = presence;
         let leaves = if config.attract.enabled { attracts && !self.attracts } else { self.visited && !visited };
         self.visited = visited;
         if attracts != self.attracts {

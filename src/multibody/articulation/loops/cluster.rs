@@ -10,6 +10,7 @@ use soffio_math::spatial::{Mat6, Vec6};
 /// A joint or coupling of the component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
+    /// Its rows.
     pub span: Span,
     /// Where its numbers are in `g` and `lambda`.
     pub at: usize,
@@ -20,6 +21,7 @@ pub(super) struct Node {
 /// The part of a node's rows that is on one body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RowBlockRef {
+    /// Index of the node.
     pub node: usize,
     /// Which of the rows' parts it is.
     pub index: usize,
@@ -30,7 +32,9 @@ pub(super) struct RowBlockRef {
 /// A body or a train, and the parts on it.
 #[derive(Clone, Debug)]
 pub(super) struct Clique {
+    /// Index of the body or train.
     pub index: usize,
+    /// Parts of rows on it.
     pub parts: Vec<RowBlockRef>,
     /// Items of the blocks of each part with itself and those after it.
     pub items: Vec<usize>,
@@ -39,17 +43,21 @@ pub(super) struct Clique {
 /// The component and its factor. Nothing allocates after [`Cluster::new`].
 #[derive(Clone, Debug)]
 pub(super) struct Cluster {
+    /// Body that the component hangs on, nearest to the root; `None`: the world.
     pub top: Option<usize>,
     /// Parts on the top, with the items of their blocks.
     pub on_top: Vec<(RowBlockRef, usize)>,
     /// Joints and couplings, in the order of elimination.
     pub nodes: Vec<Node>,
+    /// Bodies with the parts on them.
     pub bodies: Vec<Clique>,
+    /// Gear trains with the parts on them.
     pub trains: Vec<Clique>,
     /// Parts on bodies whose a is given: driven ones, wheels of trains.
     pub given: Vec<(usize, RowBlockRef)>,
-    /// A⁻¹ by bodies; does nothing hang on each?
+    /// A⁻¹ by bodies.
     pub inverses: Vec<Mat6>,
+    /// Does nothing hang on each body?
     pub leaves: Vec<bool>,
     /// J on bodies with given accelerations, by parts and rows.
     pub j: Vec<Vec6>,
@@ -57,6 +65,7 @@ pub(super) struct Cluster {
     pub w: Vec<f64>,
     /// f of the rows by trains.
     pub coefficients: Vec<f64>,
+    /// Factor of the rows' matrix.
     pub factor: SparseFactor,
     /// e, then λ.
     pub x: Vec<f64>,

@@ -65,7 +65,7 @@ pub struct LoopRow {
     pub place: usize,
     /// Γ with the rows of its joint, from the first to itself.
     pub compliance: RowVec,
-    /// Is it a coupling of a train, which the train itself holds?
+    /// Is it a coupling inside a gear train? The train's own elimination holds it, so the loops leave it out.
     pub train_internal: bool,
 }
 

@@ -25,8 +25,9 @@ pub const BORDER: usize = 6;
 /// Columns that follow each other in two panels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ColumnRun {
-    /// First item of the eliminated node's panel, and how many.
+    /// First item of the eliminated node's panel.
     pub from: usize,
+    /// Number of items.
     pub count: usize,
     /// First item of the panel that is changed.
     pub to: usize,
@@ -39,16 +40,21 @@ pub(super) struct SparseFactor {
     pub begins: Vec<usize>,
     /// The node of each item.
     pub items: Vec<usize>,
-    /// Its first column in the panel; counted anew where sizes change.
+    /// Its first column in the panel; counted again where sizes change.
     pub columns: Vec<usize>,
-    /// Where the runs of each item begin, and the runs.
+    /// Where the runs of each item begin in `runs`.
     pub run_begins: Vec<usize>,
+    /// The runs of all items.
     pub runs: Vec<ColumnRun>,
-    /// Unknowns of each node now, columns of its panel, where its unknowns and its panel begin.
+    /// Number of unknowns of each node now.
     pub sizes: Vec<usize>,
+    /// Number of columns of each node's panel.
     pub widths: Vec<usize>,
+    /// Where each node's unknowns begin.
     pub unknowns: Vec<usize>,
+    /// Where each node's panel begins in `entries`.
     pub panels: Vec<usize>,
+    /// Entries of all panels.
     pub entries: Vec<f64>,
     /// 1/D, or 0.
     pub pivots: Vec<f64>,

@@ -51,11 +51,11 @@ pub struct BodyStates<'a> {
 /// A point of a body or the world, in motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// World, m.
+    /// World position of the point, m.
     pub position: DVec3,
     /// From the centre of mass, m; zero for the world.
     pub arm: DVec3,
-    /// m/s.
+    /// Velocity of the point, m/s.
     pub velocity: DVec3,
     /// ω × (ω × r), m/s².
     pub centripetal: DVec3,
@@ -64,7 +64,7 @@ pub struct Point {
 /// A direction of a body or the world, in motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Direction {
-    /// Unit, world axes.
+    /// Direction of the axis, unit, world axes.
     pub n: DVec3,
     /// ω of its body, rad/s.
     pub spin: DVec3,

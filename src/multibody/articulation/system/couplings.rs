@@ -10,7 +10,7 @@ use soffio_math::spatial::Vec6;
 pub struct Coupled<'a> {
     /// λ; 0 where it is inactive.
     pub multiplier: f64,
-    /// J by bodies.
+    /// J: each body that it touches, with the block on it.
     pub parts: &'a [(usize, Vec6)],
 }
 

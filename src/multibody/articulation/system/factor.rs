@@ -15,10 +15,15 @@ use soffio_math::spatial::Vec6;
 /// Factor of the system.
 #[derive(Clone, Debug)]
 pub(super) struct Factor {
+    /// Articulated-body factor of the kinematic tree.
     pub tree: Tree,
+    /// Ball joints of the tree.
     pub ball_joints: BallJoints,
+    /// Rows that close loops, and their factor.
     pub loops: Loops,
+    /// Factor of the dense solver, where it is chosen.
     pub dense: Option<Dense>,
+    /// Gear trains.
     pub trains: Trains,
     /// Kind of the next solve.
     pub solve_kind: SolveKind,
@@ -30,7 +35,7 @@ impl Factor {
         self.dense.as_ref().map_or(&self.loops.rows, |dense| &dense.rows)
     }
 
-    /// The same, mutable.
+    /// Rows outside the tree, mutable.
     #[inline(always)]
     pub fn outside_mut(&mut self) -> &mut [LoopRow] {
         self.dense.as_mut().map_or(&mut self.loops.rows, |dense| &mut dense.rows)

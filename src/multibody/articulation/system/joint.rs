@@ -48,14 +48,14 @@ pub struct Joint {
     pub(super) in_train: bool,
 }
 
-/// State of a row, beside its Jacobian blocks.
+/// State of one scalar constraint row, C = q(x) − f(t), beside its Jacobian blocks.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct RowState {
-    /// C, m or rad.
+    /// C, the error of the row, m or rad.
     pub value: f64,
-    /// ḟ.
+    /// ḟ, rate of a prescribed motion, m/s or rad/s.
     pub(super) prescribed_rate: f64,
-    /// J̇ẋ − f̈.
+    /// J̇ẋ − f̈, the part of the row's acceleration without J ẍ, m/s² or rad/s².
     pub(in crate::articulation) bias: f64,
     /// Whether C is a length (else an angle).
     pub(super) length: bool,

@@ -69,7 +69,7 @@ impl System {
         Self::at_level(Level::new(), bodies, kinematic, constraints, method)
     }
 
-    /// The same without gear trains, for position-based motion, which solves gears row by row.
+    /// As [`Self::new`], with each gear as a row of its own instead of gear trains: position-based motion solves gears row by row.
     pub fn without_trains(
         bodies: &[RigidBody],
         kinematic: &[bool],
@@ -177,7 +177,7 @@ impl System {
         dispatch!(lane_blocks.level(), simd => rows.evaluate(simd, now, factor, extent));
     }
 
-    /// Excludes sleeping bodies, with all joints to them, until they wake. Rows and factor must be made anew.
+    /// Excludes sleeping bodies, with all joints to them, until they wake. Rows and factor must be built again.
     pub fn let_sleep(&mut self, asleep: &[bool], bodies: &[RigidBody]) {
         self.sleep_state.set(asleep, &self.rows.constraints, &self.factor.trains);
         let mut frames = std::mem::take(&mut self.sleep_state.frames);

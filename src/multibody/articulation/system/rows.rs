@@ -20,8 +20,11 @@ use soffio_math::spatial::row_blocks::{RowSquare, RowVec};
 /// A coupling constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Coupling {
+    /// Index of its constraint.
     pub constraint: usize,
+    /// Where its number is in `g`, `lambda` and the other lists of rows.
     pub at: usize,
+    /// Its coordinates, each with its coefficient.
     pub terms: Vec<(Gauge, f64)>,
     /// Value at which a clutch sticks; subtracted from the coupling's value.
     pub offset: f64,
@@ -32,20 +35,27 @@ pub(super) struct Coupling {
 /// All rows.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
+    /// All constraints.
     pub constraints: Vec<Constraint>,
+    /// All joints.
     pub joints: Vec<Joint>,
     /// Joints that are not always a tree's ball joint; first those outside gear trains.
     pub general_joints: Vec<usize>,
     /// Number of those outside gear trains.
     pub outside_trains: usize,
-    /// Ranges of all rows outside gear trains; and those of them that are not of ball joints.
+    /// Ranges of all rows outside gear trains.
     pub rows_without_trains: Vec<Range<usize>>,
+    /// Those of these ranges that are not of ball joints.
     pub general_rows: Vec<Range<usize>>,
+    /// All coupling constraints.
     pub couplings: Vec<Coupling>,
+    /// Jacobian blocks of joints that are not ball joints.
     pub blocks: Vec<JointRows>,
+    /// State of each row.
     pub states: Vec<RowState>,
-    /// Rotation matrices of bodies, where any row reads them; the bodies read by rows outside trains.
+    /// Rotation matrices of bodies, where any row reads them.
     pub frames: Vec<DMat3>,
+    /// The bodies whose frames rows outside trains read.
     pub framed: Vec<usize>,
     /// Whether any row is being closed by stabilisation.
     pub stabilising: bool,
@@ -65,9 +75,13 @@ pub(super) struct Extent {
 /// A configuration at which rows are evaluated.
 #[derive(Clone, Copy)]
 pub(super) struct Now<'a> {
+    /// All bodies.
     pub bodies: &'a [RigidBody],
+    /// The same bodies by lane blocks.
     pub lane_blocks: &'a LaneBlocks,
+    /// Activation of the constraints.
     pub activity: &'a Activity,
+    /// Does each body sleep?
     pub asleep: &'a [bool],
 }
 

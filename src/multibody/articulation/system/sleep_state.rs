@@ -7,11 +7,13 @@ use soffio_math::DMat3;
 /// Sleeping bodies and constraints, which evaluation and solves skip.
 #[derive(Clone, Debug)]
 pub(super) struct SleepState {
-    /// Whether each body sleeps; and the sleeping bodies that tree sweeps may still visit.
+    /// Does each body sleep?
     pub bodies: Vec<bool>,
+    /// The sleeping bodies that tree sweeps may still visit.
     pub tree_bodies: Vec<usize>,
-    /// Whether each constraint sleeps; and the largest position error among those, m.
+    /// Does each constraint sleep?
     pub constraints: Vec<bool>,
+    /// Largest position error of the sleeping constraints, m.
     pub gap: f64,
     /// Scratch for that error: a matrix a body.
     pub frames: Vec<DMat3>,

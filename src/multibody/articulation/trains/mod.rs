@@ -272,7 +272,7 @@ impl Trains {
         self.trains[train].rate
     }
 
-    /// f²/m for two rows' f on one train.
+    /// Entry J M⁻¹ Jᵀ of two rows that act on one train with coefficients `f` and `g`: f g / m, m the train's mass.
     #[inline(always)]
     pub fn response(&self, train: usize, f: f64, g: f64) -> f64 {
         f * g / self.trains[train].mass

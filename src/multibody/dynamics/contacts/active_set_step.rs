@@ -54,6 +54,7 @@ pub(super) enum ActiveSetKind {
 /// One active-set step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ActiveSetStep {
+    /// Which branch of the contact law each contact takes.
     pub kind: ActiveSetKind,
     /// Softness of each contact as a fraction of its effective inverse mass.
     pub softness: f64,

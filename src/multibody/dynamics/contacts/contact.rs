@@ -22,7 +22,9 @@ pub(super) const VISCOUS_SLIP: f64 = 0.5;
 /// A range of indices: from `start` to the one before `end`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct IndexRange {
+    /// First index.
     pub start: usize,
+    /// Index after the last one.
     pub end: usize,
 }
 
@@ -103,8 +105,9 @@ pub(super) enum ContactKind {
 /// One contact of the problem.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contact {
+    /// Kind of the contact, and its law.
     pub kind: ContactKind,
-    /// World point, m.
+    /// World point of the contact, m.
     pub point: DVec3,
     /// Unit normal, from the second collider to the first; zero where the kind has none.
     pub normal: DVec3,
@@ -114,13 +117,13 @@ pub(super) struct Contact {
     pub min_velocity: f64,
     /// Coefficient of restitution, of an impact.
     pub restitution: f64,
-    /// Impulse that has already acted, N s.
+    /// Impulse that has already acted on the bodies, N s: only the difference from `impulse` is applied.
     pub applied: DVec3,
-    /// Impulse, N s.
+    /// Impulse of this solution, N s.
     pub impulse: DVec3,
     /// Impulse that the solver starts from, N s.
     pub initial: DVec3,
-    /// Where the force that it continues acted, m.
+    /// World point at which this contact's force acted in the step before, m; `None` for a new contact.
     pub previous_point: Option<DVec3>,
     /// Its rows in the problem.
     pub rows: IndexRange,

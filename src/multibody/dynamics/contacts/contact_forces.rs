@@ -26,8 +26,9 @@ const CAPACITY: usize = 1024;
 /// The force of one resting contact, found in the last substep in which it acted.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactForce {
+    /// Which contact exerts it.
     pub source: ForceSource,
-    /// World point, m.
+    /// World point at which it acts, m.
     pub point: DVec3,
     /// World force (N) or, of a rolling resistance, couple (N m) on the first body; in x along the row of a limit or clutch.
     pub force: DVec3,
@@ -44,6 +45,7 @@ pub(super) struct ContactForce {
 /// How a contact force acts on one body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactArm {
+    /// Index of the body.
     pub body: usize,
     /// Wrench of a unit force of a limit or clutch, and its change over a substep of that length.
     jacobian: Vec6,

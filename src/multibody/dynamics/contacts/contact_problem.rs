@@ -36,7 +36,9 @@ const PUSH_TIME: f64 = 1e-3;
 /// All contacts of one moment, their rows, and the solver.
 #[derive(Clone, Debug)]
 pub(super) struct ContactProblem {
+    /// The contacts.
     pub contacts: Vec<Contact>,
+    /// Their rows, contact by contact.
     pub rows: Vec<JacobianRow>,
     coordinates: ReducedCoordinates,
     islands: Islands,

@@ -14,7 +14,7 @@ pub struct ContactReport {
     pub pair: usize,
     /// The two bodies; `None` is the world.
     pub bodies: [Option<usize>; 2],
-    /// World, m.
+    /// World point of the contact, m.
     pub point: DVec3,
     /// Unit, from the second collider to the first.
     pub normal: DVec3,

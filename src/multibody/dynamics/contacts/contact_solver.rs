@@ -176,14 +176,18 @@ impl Iterate {
 /// The problem as the solver reads it.
 #[derive(Clone, Copy)]
 pub(super) struct ProblemView<'a> {
+    /// The contacts.
     pub contacts: &'a [Contact],
+    /// Their reduced coordinates.
     pub coordinates: &'a ReducedCoordinates,
+    /// The islands that they form.
     pub islands: &'a Islands,
 }
 
 /// The contact solver. Impulses go in and come out in its iterates.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ContactSolver {
+    /// State of each contact during the solution.
     pub iterates: Vec<Iterate>,
     /// z, the gradient g and the Newton step, by coordinates.
     pub(super) z: Vec<f64>,

@@ -26,7 +26,9 @@ pub(super) struct Envelope {
 
 /// A row from some column on and the column from the row of that index on, both up to the diagonal.
 pub(super) struct Lines<'a> {
+    /// Elements of the row left of the diagonal.
     pub row: &'a mut [f64],
+    /// Elements of the column down to the diagonal.
     pub column: &'a mut [f64],
 }
 

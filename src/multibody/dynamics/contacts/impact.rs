@@ -39,7 +39,7 @@ pub struct Impact {
     pub bodies: [Option<usize>; 2],
     /// Indices of the two colliders; `None` at a limit.
     pub colliders: Option<[usize; 2]>,
-    /// World, m.
+    /// World point of the impact, m.
     pub point: DVec3,
     /// Unit, from the second collider to the first; zero at a limit.
     pub normal: DVec3,

@@ -44,7 +44,7 @@ const MAX_PROPAGATED: usize = 256;
 /// An impact at one point of two bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct PointImpact {
-    /// World, m.
+    /// World point of the impact, m.
     pub point: DVec3,
     /// Unit, from the second body to the first.
     pub normal: DVec3,
@@ -79,6 +79,7 @@ pub(super) struct Bounce {
 /// An impact whose event is to be reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ReportedImpact {
+    /// What has collided.
     pub source: ContactSource,
     /// Seconds after the beginning of the step.
     pub time: f64,
@@ -86,6 +87,7 @@ pub(super) struct ReportedImpact {
     pub contacts: IndexRange,
     /// Approach speed, m/s.
     pub speed: f64,
+    /// Does the contact rest from now on?
     pub comes_to_rest: bool,
 }
 

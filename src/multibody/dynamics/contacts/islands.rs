@@ -12,13 +12,16 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(super) struct Island {
     nodes: Range<usize>,
+    /// Range of its coordinates.
     pub coordinates: Range<usize>,
+    /// Range of its contacts in [`Islands::contacts`].
     pub contacts: Range<usize>,
 }
 
 /// The islands of a problem.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Islands {
+    /// The islands.
     pub islands: Vec<Island>,
     /// Contacts that act on some node, island by island, ascending within each.
     pub contacts: Vec<usize>,

@@ -10,6 +10,7 @@ pub const MAX_ROW_BODIES: usize = 3;
 /// One Jacobian row J: the block of each body that it acts on, (linear, angular).
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::dynamics) struct JacobianRow {
+    /// Each body that it touches, with the block of J on it.
     pub ends: [Option<(usize, Vec6)>; MAX_ROW_BODIES],
 }
 

@@ -21,7 +21,9 @@ pub(super) struct NearbyPairs {
 
 /// The motions of a pair's two colliders, and their first contact.
 pub(super) struct SweptPair {
+    /// Motions of the two colliders over the substep.
     pub sweeps: [Sweep; 2],
+    /// Their first contact; `None` where they do not meet.
     pub impact: Option<TimeOfImpact>,
 }
 

@@ -81,7 +81,9 @@ pub(super) struct Node {
 /// B of one contact and one node: a matrix of the contact's rows by the node's size, row by row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NodeBlock {
+    /// Index of the node.
     pub node: usize,
+    /// Index of the contact.
     pub contact: usize,
     /// Where its elements begin.
     pub at: usize,
@@ -101,7 +103,9 @@ pub(super) struct ReducedCoordinates {
     mechanisms: Mechanisms,
     /// Node of each mechanism by its first body, in the present problem.
     node_of: Vec<usize>,
+    /// The nodes: mechanisms and free bodies.
     pub nodes: Vec<Node>,
+    /// The blocks of B.
     pub blocks: Vec<NodeBlock>,
     /// Elements of all blocks.
     pub elements: Vec<f64>,

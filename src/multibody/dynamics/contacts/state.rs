@@ -64,8 +64,11 @@ pub(super) struct Work {
 /// What contacts are made of.
 #[derive(Clone, Debug)]
 pub(in crate::dynamics) struct ContactSetup<'a> {
+    /// All colliders.
     pub colliders: &'a [Collider],
+    /// The pairs of colliders that can touch.
     pub pairs: Vec<SurfacePair>,
+    /// All joint limits.
     pub limits: &'a [Limit],
     /// All constraints, clutches among them.
     pub constraints: &'a [Constraint],
@@ -73,6 +76,7 @@ pub(in crate::dynamics) struct ContactSetup<'a> {
     pub bodies: &'a [RigidBody],
     /// Whether each body is kinematic.
     pub is_kinematic: &'a [bool],
+    /// How open contacts are closed.
     pub stabilization: Stabilization,
 }
 

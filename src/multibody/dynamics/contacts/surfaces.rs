@@ -15,19 +15,22 @@ const BISECTIONS: usize = 12;
 /// All colliders of an articulation, and which of them can touch.
 #[derive(Clone, Debug)]
 pub(super) struct Surfaces {
+    /// All colliders.
     pub colliders: Vec<Collider>,
     /// Largest distance of each collider's core from its body's centre of mass, m; 0 of the world.
     pub bounding_radii: Vec<f64>,
     /// Ball around each collider's core: centre in the node frame, and radius, m.
     balls: Vec<(DVec3, f64)>,
+    /// The pairs of colliders that can touch.
     pub pairs: Vec<SurfacePair>,
+    /// Builds manifolds from corners.
     pub corners: ManifoldBuilder,
 }
 
 /// Where two surfaces are in contact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PointGeometry {
-    /// World, m.
+    /// World point of the contact, m.
     pub point: DVec3,
     /// Unit, from the second collider to the first.
     pub normal: DVec3,
@@ -36,7 +39,7 @@ pub(super) struct PointGeometry {
 }
 
 impl Surfaces {
-    /// The surfaces of these colliders, with the pairs that can touch.
+    /// The surfaces of these colliders of `bodies`; `pairs` are the pairs of colliders that can touch.
     pub fn new(colliders: &[Collider], pairs: Vec<SurfacePair>, bodies: &[RigidBody]) -> Self {
         let radius = |c: &Collider| c.body.map_or(0.0, |b| c.shape.bounding_radius(bodies[b].properties.center));
         Self {

@@ -43,6 +43,9 @@ pub struct Exported {
 }
 
 /// Writes the exhibit as MJCF; returns what was omitted.
+///
+/// # Errors
+/// A file cannot be written.
 pub fn write(exhibit: &Exhibit, path: &Path) -> io::Result<Vec<String>> {
     let Exported { text, omitted } = export(exhibit);
     let mut file = AtomicFile::create(path)?;

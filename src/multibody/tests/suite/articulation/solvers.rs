@@ -10,7 +10,7 @@ use soffio_multibody::articulation::{Constraint, ConstraintKind, LinearSolver, S
 use super::kkt::{Solution, independent, reference, well_posed};
 use super::mechanisms::{Kinds, RandomMechanism, below, body, mechanism, plane, point, vector, wrench};
 
-/// Of the largest unknown. Rows that lean on each other by less than `LEAST` are drawn anew: condition numbers stay
+/// Of the largest unknown. Rows that lean on each other by less than `LEAST` are drawn again: condition numbers stay
 /// below some 10⁵, so that a solver that loses no more than they cost is four digits better than this.
 pub const SOLVED: f64 = 1e-10;
 /// Least share of itself that a row of a random mechanism adds to the rows before it.

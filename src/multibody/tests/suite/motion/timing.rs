@@ -246,7 +246,7 @@ fn a_broken_nail_carries_nothing_and_the_other_carries_more() {
 }
 
 #[test]
-fn a_breath_starts_the_clock_once_and_the_next_one_anew() {
+fn a_breath_starts_the_clock_once_and_the_next_one_again() {
     // A brake that acts for 0.1 s, from 0.02 s after every breath of 3 m/s or more.
     let (m, c) = (0.3, 2.0);
     for integrator in INTEGRATORS {

@@ -1,0 +1,84 @@
+//! Catalog of exhibits: folders that are saved, dropped and taken away.
+
+use std::path::Path;
+use std::time::Duration;
+
+use soffio_kiosk::venue::catalog::{Catalog, CatalogEvent, CatalogLoader, ExhibitSource, folders, id};
+
+#[test]
+fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
+    /// Far longer than the debounce time and a load: only a watcher that misses the change takes so long.
+    const LONG: Duration = Duration::from_secs(20);
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/steel-fish");
+    let folder = tempfile::tempdir().expect("a folder");
+    let copy = folder.path().join("steel-fish");
+    copy_folder(&shipped, &copy);
+    let shelf = CatalogLoader::new(&ExhibitSource::One(copy.clone()), &copy, true);
+    assert!(
+        matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(work)) if work.id == "steel-fish" && work.thumbnail.is_some())
+    );
+    let sidecar = copy.join("exhibit.toml");
+    let text = std::fs::read_to_string(&sidecar).expect("a sidecar");
+
+    std::fs::write(&sidecar, &text).expect("writable");
+    let Some(CatalogEvent::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
+    assert_eq!(loaded.id, "steel-fish");
+    assert!(matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(_))));
+
+    std::fs::write(&sidecar, format!("{text}\n[no-such-table]\n")).expect("writable");
+    let Some(CatalogEvent::Rejected(id, report)) = shelf.wait(LONG) else {
+        panic!("the change is noticed, nothing shown")
+    };
+    assert!(id == "steel-fish" && report.contains("no-such-table"), "{report}");
+}
+
+#[test]
+fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_taken_away() {
+    const LONG: Duration = Duration::from_secs(20);
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits");
+    let site = tempfile::tempdir().expect("a folder");
+    for id in ["pendulum", "steel-fish"] {
+        copy_folder(&shipped.join(id), &site.path().join(id));
+    }
+    let show = ["steel-fish", "*", "pendulum"].map(str::to_owned).to_vec();
+    let places = ExhibitSource::All { folder: site.path().to_path_buf(), show };
+    let named: Vec<String> = folders(&places).iter().map(|folder| id(folder)).collect();
+    assert_eq!(named, ["steel-fish", "pendulum"]);
+    let shelf = CatalogLoader::new(&places, &site.path().join("steel-fish"), true);
+    let mut offer = Catalog::new(&places);
+    let mut said = Vec::new();
+    let mut until = |offer: &mut Catalog, wanted: &[&str]| {
+        while offer.entries().iter().map(|work| work.id.as_str()).ne(wanted.iter().copied()) {
+            match shelf.wait(LONG).unwrap_or_else(|| panic!("{wanted:?} never stood there: {:?}", offer.entries())) {
+                CatalogEvent::Listed(work) => offer.insert(*work),
+                CatalogEvent::Removed(id) => offer.remove(&id),
+                CatalogEvent::Rejected(id, report) => {
+                    offer.remove(&id);
+                    said.push(report);
+                }
+                CatalogEvent::Show(_) | CatalogEvent::Failed(_) => {}
+            }
+        }
+    };
+    until(&mut offer, &["steel-fish", "pendulum"]);
+    // Dropped while the kiosk runs: between the two that are named, as the star says.
+    copy_folder(&shipped.join("chains"), &site.path().join("chains"));
+    until(&mut offer, &["steel-fish", "chains", "pendulum"]);
+    assert_eq!(offer.neighbour("pendulum", 1).map(|work| work.id.as_str()), Some("steel-fish"), "round and round");
+    assert_eq!(offer.neighbour("steel-fish", -1).map(|work| work.id.as_str()), Some("pendulum"));
+    std::fs::remove_dir_all(site.path().join("chains")).expect("removable");
+    until(&mut offer, &["steel-fish", "pendulum"]);
+}
+
+fn copy_folder(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("a folder");
+    for entry in std::fs::read_dir(from).unwrap_or_else(|error| panic!("{}: {error}", from.display())) {
+        let path = entry.expect("readable").path();
+        let target = to.join(path.file_name().expect("a name"));
+        if path.is_dir() {
+            copy_folder(&path, &target);
+        } else {
+            std::fs::copy(&path, &target).expect("a copy");
+        }
+    }
+}
