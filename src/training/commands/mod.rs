@@ -3,6 +3,7 @@
 use clap::{Parser, Subcommand};
 
 mod failure;
+mod make_scene;
 mod train;
 
 pub use failure::Failure;
@@ -17,12 +18,14 @@ struct Cli {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    MakeScene(make_scene::Args),
     Train(train::Args),
 }
 
 /// Runs the tool on the process's arguments. The exit code is 1 for bad input, 2 for wrong usage.
 pub fn run() -> std::process::ExitCode {
     let outcome = match Cli::parse().command {
+        Command::MakeScene(args) => make_scene::run(&args),
         Command::Train(args) => train::run(&args),
     };
     match outcome {

@@ -66,7 +66,9 @@ pub(super) fn motor(stage: &mut Stage, random: &mut Random, at: f64, seconds: f6
         let waver = Drift::new(random, 4.0 * seconds);
         (0..(seconds / STEP) as usize).map(|i| exp(0.3 * waver.at(2.0 * i as f64 * STEP))).collect()
     };
-    let envelope: Vec<f64> = envelope.iter().map(|c| c * c).collect();
+    // A motor needs a quarter of a second to start and to stop.
+    let edge = |i: usize| (i.min(envelope.len() - i) as f64 * STEP / 0.25).min(1.0);
+    let envelope: Vec<f64> = envelope.iter().enumerate().map(|(i, c)| edge(i) * c * c).collect();
     modulate(&mut wave, &envelope);
     let db = random.range(48.0, 86.0);
     if random.chance(0.5) {
@@ -89,7 +91,7 @@ pub(super) fn rumble(stage: &mut Stage, random: &mut Random, at: f64) {
         .map(|i| {
             let t = i as f64 * STEP;
             let x = (t / seconds - 0.5) / width;
-            exp(-0.5 * x * x + depth * waver.at(4.0 * t))
+            t.min(seconds - t).min(1.0) * exp(-0.5 * x * x + depth * waver.at(4.0 * t))
         })
         .collect();
     modulate(&mut wave, &gains);

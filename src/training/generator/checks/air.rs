@@ -56,6 +56,7 @@ fn the_front_needs_its_time() {
         let arrived = speeds.iter().position(|u| *u > half).expect("it arrives") as f64 * STEP;
         // Hill and Ouellette (1999). The smearing delays the half by about two times 0.2 x/u.
         let front = x * x / (7.98 * lips * MOUTH);
+        println!("{lips} m/s need {arrived:.2} s to {x} m, the front {front:.2} s");
         let smearing = (0.4 * x / (2.0 * half)).min(0.3);
         assert!(arrived > 0.9 * front && arrived < front + smearing + 0.02, "{arrived} s, the front {front} s");
     }
@@ -100,6 +101,7 @@ fn turbulence_is_a_quarter_on_the_axis_and_more_at_the_edge() {
         (large * large + small * small).sqrt() / mean
     };
     let (axis, edge) = (intensity(0.0), intensity(1.5 * half_radius(x, MOUTH)));
+    println!("intensity {axis:.2} on the axis, {edge:.2} at the edge");
     assert!((0.24..0.31).contains(&axis), "{axis}");
     assert!(edge > 2.0 * axis, "{edge}");
 }
@@ -111,6 +113,7 @@ fn pressure_falls_by_22_db_from_10_to_36_cm() {
         20.0 * soffio_math::log10(fluctuation(p.iter().map(|p| f64::from(*p))))
     };
     let fall = level(0.10) - level(0.36);
+    println!("from 10 to 36 cm the pressure falls by {fall:.1} dB");
     assert!((fall - 22.0).abs() < 2.0, "{fall} dB");
 }
 
@@ -125,6 +128,7 @@ fn the_spectrum_follows_the_local_speed() {
         (1..WINDOW).map(|k| k as f64 * bin).find(|f| band(&power, 4.0, *f) > 0.9 * all).expect("an edge")
     };
     let (near, far) = (edge(0.1), edge(0.5));
+    println!("90 % of the power lies below {near:.0} Hz at 10 cm, {far:.0} Hz at 50 cm");
     assert!(far < 60.0, "{far} Hz at 50 cm");
     // U/L falls by 25. Windows of 128 ms do not resolve the lowest frequencies at 50 cm, so the ratio looks smaller.
     assert!(near > 8.0 * far, "{near} and {far} Hz");
@@ -155,6 +159,7 @@ fn two_capsules_share_large_eddies_only() {
         let f = k as f64 * RATE / WINDOW as f64;
         let (along, across) = (f / u * port.spacing, 0.12 * port.spacing / l);
         let expected = exp(-port.decay * (along * along + across * across).sqrt());
+        println!("coherence {gamma:.2} at {f:.0} Hz, expected {expected:.2}");
         // 500 independent windows: the estimate errs by about 0.05.
         assert!((gamma - expected).abs() < 0.1, "{gamma} at {f} Hz, not {expected}");
     }
