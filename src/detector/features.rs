@@ -17,8 +17,8 @@
 //! | incoherent strangeness | the same, relative to its spread |
 //! | decorrelation | 1 − γ² of wide bands |
 //!
-//! Decibels are compressed, c(r) = R tanh(r/R): 40 dB over the floor say no more than 60, which only a microphone that is silent in
-//! between has.
+//! Decibels are compressed, tanh(r/R): 25 dB over the floor say no more than 60, which only a microphone that is silent in between
+//! has.
 
 use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, power_to_db, powers};
 use super::floor::Floor;
@@ -28,6 +28,8 @@ use soffio_math::{PI, cos, tanh};
 
 /// Number of inputs.
 pub const COUNT: usize = 3 * BANDS + 3 + 3 * WIDE;
+/// Inputs that describe the shape of the spectrum.
+pub const SHAPE: std::ops::Range<usize> = BANDS..2 * BANDS;
 /// Inputs of the network for one frame.
 pub type Inputs = [f32; COUNT];
 
@@ -40,8 +42,10 @@ const HARMONICS: std::ops::Range<usize> = 6..64;
 /// Lags of 400 Hz and 80 Hz, internal samples.
 const PITCH_LAGS: std::ops::Range<usize> = 20..100;
 const LAGS: usize = PITCH_LAGS.end - PITCH_LAGS.start;
-/// R of the compression of rises and of the shape, dB.
-const RANGE_DB: f64 = 30.0;
+/// R of the compression of a rise, dB. How far a sound rises says how near and how loud it is, not what it is.
+const RISE_DB: f64 = 12.0;
+/// R of the compression of the shape, dB.
+const SHAPE_DB: f64 = 30.0;
 /// R of the compression of strangeness.
 const STRANGE: f64 = 4.0;
 /// Smallest spread, dB: the scatter of noise in a wide band.
@@ -106,8 +110,8 @@ impl Features {
         for (b, level) in levels.iter().enumerate() {
             let rise = self.floor.rise(b, *level);
             rise_db = rise_db.max(rise);
-            inputs[b] = compressed(rise, RANGE_DB);
-            inputs[BANDS + b] = compressed(level - loudest, RANGE_DB);
+            inputs[b] = compressed(rise, RISE_DB);
+            inputs[BANDS + b] = compressed(level - loudest, SHAPE_DB);
             inputs[2 * BANDS + b] = compressed(rise / self.floor.spread(b).max(MIN_SPREAD_DB), STRANGE);
         }
         let sum = |of: &[f64; BANDS]| of[RUMBLE].iter().sum::<f64>();
@@ -131,7 +135,7 @@ impl Features {
         }
         for b in 0..WIDE {
             let rise = self.incoherent_floor.rise(b, levels[b]);
-            inputs[b] = compressed(rise, RANGE_DB);
+            inputs[b] = compressed(rise, RISE_DB);
             inputs[WIDE + b] = compressed(rise / self.incoherent_floor.spread(b).max(MIN_SPREAD_DB), STRANGE);
             inputs[2 * WIDE + b] = parts[b].1 as f32;
         }

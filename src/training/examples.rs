@@ -5,10 +5,12 @@
 
 use super::generator::{self, Scene};
 use super::gradient::Example;
+use soffio_detector::bands::BANDS;
+use soffio_detector::features;
 use soffio_detector::frontend::Frontend;
 use soffio_detector::spectrum::FRAME_S;
 use soffio_math::ln;
-use soffio_math::noise::hash_words;
+use soffio_math::noise::{Random, hash_words};
 
 /// Slowest air at the capsule that the detector is asked to hear, m/s.
 const SLOWEST_AIR_M_S: f32 = 0.35;
@@ -20,6 +22,9 @@ const AFTER_S: f64 = 0.1;
 const NOTICED_S: f64 = 0.12;
 /// Longest breath during which the floors are frozen, s: as in the detector.
 const FROZEN_S: f64 = 8.0;
+
+/// Largest half of the colour of a band: 2.4 dB of the shape's 30 dB, twice.
+const COLOUR: f64 = 0.08;
 
 /// Capsules that a scene is measured with. The first one is nearer to the jet's axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,13 +73,26 @@ pub fn of_scene(scene: &Scene, capsules: Capsules) -> Vec<Example> {
     examples
 }
 
+/// Colours the shape of a scene's spectra, as microphones do in ways that nobody lists.
+fn colour(examples: &mut [Example], random: &mut Random) {
+    let offsets: [f32; BANDS] = std::array::from_fn(|_| (COLOUR * (random.signed() + random.signed())) as f32);
+    for shape in examples.iter_mut().map(|example| &mut example.inputs[features::SHAPE]) {
+        shape.iter_mut().zip(offsets).for_each(|(x, offset)| *x = (*x + offset).clamp(-1.0, 0.0));
+    }
+}
+
 /// Examples of a range of scenes, each through one capsule and through two.
 pub fn of_seed(seed: u64, scenes: std::ops::Range<u64>) -> Vec<Vec<Example>> {
     let count = (scenes.end - scenes.start) as usize;
     let both = super::parallel::parallel(count, |i| {
         let scene = generator::scene(seed, scenes.start + i as u64);
         let swapped = hash_words(&[seed, scenes.start + i as u64]).is_multiple_of(2);
-        [Capsules::One, Capsules::Two { swapped }].map(|capsules| of_scene(&scene, capsules))
+        let mut random = Random::new(hash_words(&[seed, scenes.start + i as u64, 3]));
+        [Capsules::One, Capsules::Two { swapped }].map(|capsules| {
+            let mut examples = of_scene(&scene, capsules);
+            colour(&mut examples, &mut random);
+            examples
+        })
     });
     both.into_iter().flatten().collect()
 }
