@@ -81,7 +81,8 @@ impl Readings {
         let delay = first.filter(|_| detected).map(|(time, _)| time - breath.arrival);
         let least = TRACKED_M_S.max(TRACKED_SHARE * breath.peak_speed);
         let strong = self.between(breath.arrival, breath.end).filter(|(time, _)| breath.speed_at(*time) >= least);
-        let (heard, all) = strong.fold((0_usize, 0_usize), |(heard, all), (_, u)| (heard + usize::from(u > 0.0), all + 1));
+        let (heard, all) =
+            strong.fold((0_usize, 0_usize), |(heard, all), (_, u)| (heard + usize::from(u > 0.0), all + 1));
         Answer { detected, delay, tracked: heard as f64 / all.max(1) as f64 }
     }
 

@@ -28,8 +28,11 @@ use crate::jet::{Jet, STEPS_A_SECOND, fluctuation_profile, mean_profile, turbule
 use crate::lips;
 use crate::microphone::{Microphone, pascals};
 
-/// Von Kármán's length over the distance (Wygnanski and Fiedler 1969: the integral scale is 0.039 x).
-const LENGTH: f64 = 0.052;
+/// Von Kármán's length over the distance. With the large structures the integral scale is 0.04 x (Wygnanski and Fiedler 1969).
+const LENGTH: f64 = 0.038;
+/// Share of structures 0.05 to 0.1 x long, as wide as the jet (Citriniti and George, J. Fluid Mech. 418, 2000: its first modes hold
+/// much of the energy).
+const LARGE: f64 = 0.15;
 /// Least von Kármán's length over the opening, near the lips.
 const LENGTH_AT_LIPS: f64 = 0.25;
 /// Length of turbulent and of still pieces at the edge, over von Kármán's length.
@@ -37,7 +40,7 @@ const BULGE: f64 = 4.0;
 /// Fluctuation of still air between bulges over that of turbulent air.
 const STILL_PIECE: f64 = 0.3;
 /// Noise of the grille at 5 m/s, dB of sound.
-const GRILLE_DB: f64 = 70.0;
+const GRILLE_DB: f64 = 67.0;
 /// Speed of that level, m/s.
 const GRILLE_M_S: f64 = 5.0;
 /// Least distance along the axis, m.
@@ -146,6 +149,8 @@ pub struct Breath {
     pub azimuth_deg: f64,
     /// Wandering of the aim, about its largest angle, degrees.
     pub wander_deg: f64,
+    /// Ununsteady of the flow at the lips, 1 for that of most people.
+    pub unsteady: f64,
     /// Half-width of the jet over distance.
     pub spread: f64,
     /// s, spacing of two capsules, m; 0 for one capsule.
@@ -181,6 +186,7 @@ impl Default for Breath {
             angle_deg: 0.0,
             azimuth_deg: 0.0,
             wander_deg: 1.0,
+            unsteady: 1.0,
             spread: 0.09,
             spacing: 0.0,
             port: Port { size: 0.004, steepness: 1.8 },
@@ -223,7 +229,7 @@ impl Breath {
             azimuth_deg: random.range(0.0, 360.0),
             wander_deg: random.range(0.5, 3.0),
             spread: random.range(crate::jet::SPREAD.0, crate::jet::SPREAD.1),
-            port: Port { size: 0.0015 * pow(6.0, random.unit()), steepness: random.range(1.3, 2.4) },
+            port: Port { size: 0.002 * pow(5.0, random.unit()), steepness: random.range(1.5, 2.5) },
             foam: if random.unit() < 0.2 { random.range(0.5, 0.9) } else { 1.0 },
             hiss_db: random.range(-8.0, 6.0),
             grille_db: random.range(-8.0, 6.0),
@@ -267,7 +273,8 @@ impl Breath {
             }
             // Lungs empty, and no breath is quite steady.
             let tired = 1.0 - 0.25 * (held / self.hold.max(0.1)).clamp(0.0, 1.0);
-            let steady = 1.0 + 0.07 * perlin1(3.0 * time, seed) + 0.04 * perlin1(9.0 * time, seed ^ 1);
+            let steady =
+                1.0 + self.unsteady * (0.07 * perlin1(3.0 * time, seed) + 0.04 * perlin1(9.0 * time, seed ^ 1));
             let shape = |s: f64| s * s * (3.0 - 2.0 * s);
             let rise = shape((time / self.attack).min(1.0));
             let fall = shape(1.0 - (released / self.release).max(0.0));
@@ -352,7 +359,7 @@ impl Breath {
         let (lips, places) = (self.lips(seed), self.places());
         let air = self.local_air(&lips, &places, seed);
         let length = (LENGTH * places[0].x).max(LENGTH_AT_LIPS * self.opening);
-        let eddies = Eddies { length, port: self.port, places: &places, air: &air };
+        let eddies = Eddies { length, large: LARGE, port: self.port, places: &places, air: &air };
         let velocities = eddies.velocities(r, &mut stream(1));
         let sound = lips::sound(&lips, self.manner, self.hiss_db, rate, &mut stream(2));
         let mut pressure = Vec::new();
@@ -392,11 +399,16 @@ impl Breath {
         air.pressure.iter().enumerate().map(record).collect()
     }
 
-    /// Label of the breath that begins (with its lead-in) at a time, s; its level is unknown yet.
-    pub fn label(&self, at: f64, air: &Air) -> BreathLabel {
-        let speeds: Vec<f64> = (0..air.speeds[0].len())
-            .map(|step| air.speeds.iter().map(|speeds| speeds[step]).fold(0.0, f64::max))
-            .collect();
+    /// Mean speed at each capsule, m/s, one value a millisecond: those of [`Breath::air`], without its sound.
+    pub fn speeds(&self, seed: u64) -> Vec<Vec<f64>> {
+        let air = self.local_air(&self.lips(seed), &self.places(), seed);
+        air.into_iter().map(|air| air.speed).collect()
+    }
+
+    /// Label of the breath that begins (with its lead-in) at a time, s, with these speeds at the capsules; its level is unknown yet.
+    pub fn label(&self, at: f64, speeds: &[Vec<f64>]) -> BreathLabel {
+        let speeds: Vec<f64> =
+            (0..speeds[0].len()).map(|step| speeds.iter().map(|speeds| speeds[step]).fold(0.0, f64::max)).collect();
         let peak_speed = speeds.iter().copied().fold(0.0, f64::max);
         let least = ARRIVED_M_S.min(0.5 * peak_speed).max(1e-9);
         let arrived = |step: usize| at + step as f64 / STEPS_A_SECOND;

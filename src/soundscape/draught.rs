@@ -61,7 +61,7 @@ impl Draught {
         let place = |side: &f64| self.spacing * side * DVec3::new(cos(turn), sin(turn), 0.0);
         let places: Vec<DVec3> = sides.iter().map(place).collect();
         let air = vec![LocalAir { speed, fluctuation }; places.len()];
-        let eddies = Eddies { length: self.length, port: self.port, places: &places, air: &air };
+        let eddies = Eddies { length: self.length, large: 0.0, port: self.port, places: &places, air: &air };
         let velocities = eddies.velocities(f64::from(rate), &mut random);
         velocities.iter().map(|velocity| eddies::pressure(&air[0].speed, velocity, f64::from(rate))).collect()
     }

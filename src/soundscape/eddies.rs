@@ -79,6 +79,8 @@ pub struct LocalAir {
 pub struct Eddies<'a> {
     /// L, m.
     pub length: f64,
+    /// Share of the power, beside von Kármán's, of the largest octave, 1.5 to 3 L: structures as wide as a whole jet.
+    pub large: f64,
     /// Port of the capsules.
     pub port: Port,
     /// Places of the capsules: x along the flow, y and z across, m.
@@ -113,13 +115,17 @@ impl Eddies<'_> {
         let middles: Vec<f64> = (0..OCTAVES).map(|i| LARGEST * self.length * pow(2.0, -0.5 - i as f64)).collect();
         let whole: f64 = middles.iter().map(|size| power(*size)).sum();
         let pulse = REACH_POWER * PULSE_POWER * CROWDING;
+        let share = |size: f64| {
+            let large = if size > 0.5 * LARGEST * self.length { self.large } else { 0.0 };
+            large + (1.0 - self.large) * power(size) / whole
+        };
         let octave = |middle: f64| {
             let sizes = ratios.map(|ratio| ratio * middle);
-            let strengths = sizes.map(|size| (power(size) / whole * felt(size) / pulse * middle / size).sqrt());
+            let strengths = sizes.map(|size| (share(size) * felt(size) / pulse * middle / size).sqrt());
             Octave { sizes, strengths, middle }
         };
         let matters = |middle: &f64| {
-            power(*middle) / whole * felt(*middle) > NEGLIGIBLE && PULSE * middle / fastest.max(STILL_M_S) * rate > 1.0
+            share(*middle) * felt(*middle) > NEGLIGIBLE && PULSE * middle / fastest.max(STILL_M_S) * rate > 1.0
         };
         middles.into_iter().filter(matters).map(octave).collect()
     }

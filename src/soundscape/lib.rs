@@ -22,7 +22,7 @@
 //! let samples = breath.recorded(16_000, 1);
 //! assert!(samples.iter().all(|x| x.abs() <= 1.0));
 //!
-//! let label = breath.label(0.0, &breath.air(16_000, 1));
+//! let label = breath.label(0.0, &breath.speeds(1));
 //! assert!(label.lips < label.arrival && label.arrival < label.end);
 //! assert!(label.peak_speed < 9.0, "the jet slows down: {} m/s", label.peak_speed);
 //! ```

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! The exponent lies between those of a dipole (3) and of a fricative's source at low flow (2.2–2.7); see Stevens, JASA 50 (1971),
-//! and Shadle, J. Acoust. Soc. Am. 81 suppl. (1987). p₁₀ is 60 dB: a soft /f/ at 10 cm.
+//! and Shadle, J. Acoust. Soc. Am. 81 suppl. (1987). p₁₀ is 57 dB: a soft /f/ at 10 cm.
 
 use soffio_math::noise::{Random, perlin1};
 use soffio_math::{PI, pow, sin};
@@ -17,7 +17,7 @@ use crate::microphone::{pascals, resampled};
 use crate::voices::{self, Voice, add, shaped};
 
 /// Level of the hiss at 10 cm and 10 m/s, dB of sound.
-const HISS_DB: f64 = 60.0;
+const HISS_DB: f64 = 57.0;
 /// Exponent of the hiss over the speed.
 const HISS_EXPONENT: f64 = 2.7;
 /// Distance and speed of that level, m and m/s.

@@ -23,6 +23,8 @@ const AGC: (f64, f64) = (8.0, 0.18);
 const AGC_S: (f64, f64) = (0.015, 0.5);
 /// Frame of the noise suppression, s, and its least gain.
 const SUPPRESSION: (f64, f64) = (0.032, 0.15);
+/// Share of each frame in the noise suppression's smooth power: a time constant of 0.1 s.
+const SMOOTHING: f64 = 0.15;
 /// Rise of the noise suppression's floor, a frame: 3 dB a second.
 const FLOOR_RISE: f64 = 1.011;
 
@@ -185,7 +187,7 @@ fn suppressed(samples: &[f64], rate: f64) -> Vec<f64> {
     let frame = 2 * hop;
     let (forward, back) = (real_forward(frame), real_inverse(frame));
     let window: Vec<f64> = (0..frame).map(|i| sin(PI * (i as f64 + 0.5) / frame as f64)).collect();
-    let mut floor = vec![f64::INFINITY; hop + 1];
+    let (mut smooth, mut floor) = (vec![0.0; hop + 1], vec![f64::INFINITY; hop + 1]);
     let mut out = vec![0.0; samples.len()];
     let mut bins = vec![Complex::ZERO; hop + 1];
     for start in (0..samples.len().saturating_sub(frame)).step_by(hop) {
@@ -194,11 +196,12 @@ fn suppressed(samples: &[f64], rate: f64) -> Vec<f64> {
         if forward.process(&mut part, &mut bins).is_err() {
             return out;
         }
-        for (bin, floor) in bins.iter_mut().zip(&mut floor) {
+        for (bin, (smooth, floor)) in bins.iter_mut().zip(smooth.iter_mut().zip(&mut floor)) {
             let power = bin.norm_sqr();
-            *floor = power.max(1e-18).min(*floor * FLOOR_RISE);
-            // The least power of noise lies about 6 dB below its mean.
-            *bin *= (1.0 - 4.0 * *floor / power.max(1e-18)).max(SUPPRESSION.1) / frame as f64;
+            *smooth = if start == 0 { power } else { *smooth + SMOOTHING * (power - *smooth) };
+            *floor = smooth.max(1e-18).min(*floor * FLOOR_RISE);
+            // The least of the smooth power of noise lies about 4 dB below its mean.
+            *bin *= (1.0 - 2.5 * *floor / smooth.max(1e-18)).max(SUPPRESSION.1) / frame as f64;
         }
         (bins[0].im, bins[hop].im) = (0.0, 0.0);
         if back.process(&mut bins, &mut part).is_err() {

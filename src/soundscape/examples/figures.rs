@@ -34,7 +34,7 @@ fn main() {
             m.offset = 0.0;
             b.microphone = m;
             let x: Vec<f64> = b.recorded(R, seed).iter().map(|x| f64::from(*x)).collect();
-            let l = b.label(0.0, &b.air(R, seed));
+            let l = b.label(0.0, &b.speeds(seed));
             let part = &x[(l.arrival * 16000.0) as usize
                 ..((l.end * 16000.0) as usize).max((l.arrival * 16000.0) as usize + 4000).min(x.len())];
             let p = band_powers(part, 16000.0, &BANDS);
@@ -91,7 +91,7 @@ fn main() {
         let t0 = Instant::now();
         let air = b.air(R, 3);
         let took = t0.elapsed().as_secs_f64();
-        let l = b.label(0.0, &air);
+        let l = b.label(0.0, &air.speeds);
         let part = &air.pressure[0][(2.3 * 16000.0) as usize..5 * 16000];
         let mean = part.iter().sum::<f64>() / part.len() as f64;
         let ac: Vec<f64> = part.iter().map(|x| x - mean).collect();

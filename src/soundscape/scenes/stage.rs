@@ -41,7 +41,7 @@ impl Stage {
     pub fn add_breath(&mut self, at: f64, breath: &Breath, seed: u64) {
         let air = breath.air(RATE, seed);
         self.air.iter_mut().zip(&air.pressure).for_each(|(out, sound)| add(out, at, sound, 1.0));
-        self.breaths.push(breath.label(at, &air));
+        self.breaths.push(breath.label(at, &air.speeds));
     }
 
     /// Sets what the kiosk plays, full scale ±1, and adds its echo, Pa.
