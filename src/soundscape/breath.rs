@@ -19,7 +19,7 @@
 //! 50 cm, that of a hard one 0.2 s.
 
 use soffio_math::noise::{Random, hash_words, perlin1};
-use soffio_math::{DVec3, cos, pow, sin};
+use soffio_math::{DVec2, DVec3, cos, pow, sin};
 
 use crate::BreathLabel;
 use crate::eddies::{self, Eddies, LocalAir, Port};
@@ -53,6 +53,9 @@ pub const ARRIVED_M_S: f64 = 0.35;
 const DIP: f64 = 0.562;
 /// Length of a dip and the pause between two of them, s.
 const DIP_S: ((f64, f64), (f64, f64)) = ((0.05, 0.15), (0.5, 1.2));
+
+/// Speed of the hardest blow at the lips, m/s.
+pub const HARDEST_M_S: f64 = 17.0;
 
 /// Manner of a breath.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -106,7 +109,7 @@ impl Person {
     /// Softest and hardest speed at the lips, m/s.
     pub fn speeds(self) -> (f64, f64) {
         match self {
-            Self::Adult => (6.0, 17.0),
+            Self::Adult => (6.0, HARDEST_M_S),
             Self::Child => (3.6, 10.5),
             Self::Weak => (2.5, 6.0),
         }
@@ -319,7 +322,7 @@ impl Breath {
                 let time = step as f64 / STEPS_A_SECOND;
                 let aim = [7, 8]
                     .map(|way| wander * perlin1(1.1 * time, seed ^ way) + 0.01 * perlin1(6.0 * time, seed ^ (way + 2)));
-                let beside = (place.y - distance * aim[0]).hypot(place.z - distance * aim[1]);
+                let beside = DVec2::new(place.y - distance * aim[0], place.z - distance * aim[1]).length();
                 let offset = jet.offset(beside, distance);
                 let (mean, share) = (speed * mean_profile(offset), turbulent_share(offset));
                 left -= speed / STEPS_A_SECOND;

@@ -171,13 +171,13 @@ mod live {
     use std::time::Duration;
 
     use soffio_config::Chord;
-    use soffio_detector::generate;
     use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
     use soffio_kiosk::attract::script::AttractMode;
     use soffio_kiosk::live::step_scheduler::{MOST_BEHIND, StepScheduler};
     use soffio_kiosk::venue::catalog::{Catalog, CatalogEvent, CatalogLoader, ExhibitSource, folders, id};
     use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
     use soffio_simulation::Command;
+    use soffio_soundscape::breath::Breath;
 
     #[test]
     fn an_hour_of_uneven_waking_is_exactly_240_steps_a_second() {
@@ -439,7 +439,7 @@ mod live {
     fn the_attract_scripts_breath_grows_softer_the_faster_the_work_moves_than_before_it() {
         const ROUNDING: f64 = 1e-9;
         // The fastest breath of a round, of a work that moves so fast (m/s) before and during it.
-        let samples: Arc<[f32]> = generate::breath(48_000, 7, &generate::BreathShape::default()).into();
+        let samples: Arc<[f32]> = Breath::default().recorded(48_000, 7).into();
         let blow = AttractAction::Blow { samples, sample_rate: 48_000, aim: None };
         let script = Script { steps: vec![AttractStep { at: 0.25, action: blow }], duration: 8.0 };
         let fastest = |before: f64, during: f64| {
@@ -600,8 +600,8 @@ mod venue_state;
 
 mod doctor {
     use soffio::commands::doctor::{Health, judge_blow, judge_room};
-    use soffio_detector::generate::{self, BreathShape};
     use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
+    use soffio_soundscape::breath::Breath;
 
     const RATE: u32 = 48_000;
 
@@ -631,7 +631,7 @@ mod doctor {
     /// What the detector says every 20 ms of a normal breath whose samples were so many dB louder.
     fn blown(gain_db: f64, sensitivity_db: f64) -> Vec<BlowEstimate> {
         let gain = soffio_math::db_to_amplitude(gain_db) as f32;
-        let breath = generate::breath(RATE, 7, &BreathShape::default());
+        let breath = Breath::default().recorded(RATE, 7);
         let settings = BlowSettings { sensitivity_db, ..BlowSettings::default() };
         let mut detector = BlowDetector::with_settings(RATE, settings);
         let hear = |block: &[f32]| {
