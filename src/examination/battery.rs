@@ -109,7 +109,7 @@ impl Battery {
 }
 
 /// Examines a detector.
-pub fn examine(make: &Make<'_>, battery: &Battery) -> Tally {
+pub fn run(make: &Make<'_>, battery: &Battery) -> Tally {
     let jobs = battery.jobs();
     let seed = FIRST_SEED + battery.seed;
     let scenarios = SCENARIOS.min(jobs.len() as u64);

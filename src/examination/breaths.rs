@@ -30,7 +30,7 @@ const CORNERS_HZ: [f64; 5] = [20.0, 60.0, 100.0, 150.0, 200.0];
 const TRACKED: f64 = 0.9;
 
 /// A room with ventilation and, in two of three, a museum.
-pub fn room(scenario: &Scenario, stage: &mut Stage, capsules: usize, random: &mut Random) {
+pub fn add_gallery(scenario: &Scenario, stage: &mut Stage, capsules: usize, random: &mut Random) {
     let seconds = stage.seconds() + 0.01;
     let level = random.range(AIR_DB.0, AIR_DB.1);
     stage.add_noise(0.0, &scenario.air_noise(seconds, level, capsules, random), &[]);
@@ -65,7 +65,7 @@ fn stage(scenario: &Scenario, breaths: &[Breath], capsules: usize, random: &mut 
     let first = random.range(LEAD_IN_S.0, LEAD_IN_S.1);
     let seconds = first + breaths.iter().map(Breath::duration).sum::<f64>() + 0.5;
     let mut stage = Stage::new(seconds, capsules);
-    room(scenario, &mut stage, capsules, random);
+    add_gallery(scenario, &mut stage, capsules, random);
     let mut at = first;
     for breath in breaths {
         stage.add_breath(at, breath, random.word());
@@ -144,9 +144,9 @@ fn score(make: &Make<'_>, take: &Take, tally: &mut Tally) {
 
 /// Means of local and reported speed over a breath.
 fn mean_pair(readings: &Readings, breath: &BreathLabel) -> Option<(f64, f64)> {
-    let (count, local, told) =
+    let (count, local, reported) =
         readings.pairs(breath).fold((0.0, 0.0, 0.0), |(n, a, b), (x, y)| (n + 1.0, a + x, b + y));
-    (count > 0.0).then(|| (local / count, told / count))
+    (count > 0.0).then(|| (local / count, reported / count))
 }
 
 /// Scores the breaths that are clear to an open microphone behind all others.

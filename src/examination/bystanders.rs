@@ -7,7 +7,7 @@ use soffio_soundscape::draught::Draught;
 use soffio_soundscape::microphone::Microphone;
 use soffio_soundscape::scenes::{Noise, Scenario, Stage};
 
-use crate::breaths::{room, spacing};
+use crate::breaths::{add_gallery, spacing};
 use crate::listening::{Readings, is_clear};
 use crate::subject::Make;
 use crate::tally::{Section, Tally};
@@ -97,7 +97,7 @@ pub fn draught(
 pub fn kiosk(make: &Make<'_>, scenario: &Scenario, (seed, index): (u64, u64), capsules: usize) -> Tally {
     let mut random = Random::new(hash_words(&[seed, index, 0x6b69_6f73]));
     let mut stage = Stage::new(MINUTE_S, capsules);
-    room(scenario, &mut stage, capsules, &mut random);
+    add_gallery(scenario, &mut stage, capsules, &mut random);
     let played = scenario.kiosk_output(MINUTE_S, &mut random);
     let level = random.range(ECHO_DB.0, ECHO_DB.1);
     let echo = scenario.echo(&played, level, capsules, &mut random);

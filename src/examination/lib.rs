@@ -5,17 +5,17 @@
 //! subject: Detector (any) ───────────────────────────────────────────┴→ listening → tally → table
 //! ```
 //!
-//! [`battery::examine`] runs everything over a [`subject::Detector`]. A breath is *clear* if its air has 1 m/s or more at a capsule and
+//! [`battery::run`] runs everything over a [`subject::Detector`]. A breath is *clear* if its air has 1 m/s or more at a capsule and
 //! lies 10 dB or more over the room in some octave band, after the microphone. It counts as detected if the detector reports a
 //! speed between arrival and 0.3 s after the end, and none before the flow began at the lips.
 //!
 //! The sounds share nothing with those that train a detector. Takes run in parallel; the table does not depend on their order.
 //!
 //! ```no_run
-//! use soffio_examination::battery::{Battery, examine};
+//! use soffio_examination::battery::{Battery, run};
 //! use soffio_examination::subject::Today;
 //!
-//! let table = examine(&|rate| Box::new(Today::new(rate)), &Battery { size: 0.1, capsules: 1, seed: 1, only: None });
+//! let table = run(&|rate| Box::new(Today::new(rate)), &Battery { size: 0.1, capsules: 1, seed: 1, only: None });
 //! println!("{table}");
 //! ```
 

@@ -1,7 +1,7 @@
 //! Examines the kiosk's breath detector and prints the table.
 
 use clap::{Parser, ValueEnum};
-use soffio_examination::battery::{Battery, Part, examine};
+use soffio_examination::battery::{Battery, Part, run};
 use soffio_examination::subject::Today;
 
 /// Examines the kiosk's breath detector with synthetic breaths, draughts and museums.
@@ -43,7 +43,7 @@ fn main() {
         Only::Kiosk => Part::Kiosk,
     });
     let battery = Battery { size, capsules: capsules.into(), seed, only };
-    let tally = examine(&|rate| Box::new(Today::new(rate)), &battery);
+    let tally = run(&|rate| Box::new(Today::new(rate)), &battery);
     if json {
         let lines = serde_json::to_string_pretty(&tally.lines()).unwrap_or_default();
         println!("{lines}");

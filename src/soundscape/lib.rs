@@ -38,13 +38,14 @@ pub mod lips;
 pub mod microphone;
 pub mod noises;
 pub mod parallel;
+mod people;
 pub mod rooms;
 pub mod scenes;
 pub mod statistics;
 pub mod test_sounds;
 pub mod voices;
 
-use breath::Manner;
+use people::Manner;
 
 /// First seed of the scenarios of rehearsals.
 pub const FIRST_VALIDATION_SEED: u64 = 1_000_000;

@@ -97,7 +97,7 @@ impl Microphone {
 
     /// The same kind of microphone with a second capsule's deviations.
     pub fn second(self, seed: u64) -> Self {
-        let mut random = Random::new(hash_words(&[seed, 0x0074_7769_6e]));
+        let mut random = Random::new(hash_words(&[seed, 0x7477_696e]));
         let louder = db_to_amplitude(random.range(-UNLIKE.0, UNLIKE.0));
         let higher = 1.0 + random.range(-UNLIKE.1, UNLIKE.1);
         let full_scale_pa = self.full_scale_pa / louder;

@@ -1,6 +1,6 @@
 //! The battery on detectors whose results are known: one that never speaks, one that always speaks, and a plain meter of level.
 
-use soffio_examination::battery::{Battery, Part, examine};
+use soffio_examination::battery::{Battery, Part, run};
 use soffio_examination::subject::Detector;
 use soffio_examination::tally::{Section, Tally};
 use soffio_math::{PI, exp};
@@ -53,8 +53,8 @@ impl Detector for Meter {
     }
 }
 
-fn examined(part: Part, size: f64, make: impl Fn(u32) -> Box<dyn Detector> + Sync) -> Tally {
-    examine(&make, &Battery { size, capsules: 1, seed: 7, only: Some(part) })
+fn scored(part: Part, size: f64, make: impl Fn(u32) -> Box<dyn Detector> + Sync) -> Tally {
+    run(&make, &Battery { size, capsules: 1, seed: 7, only: Some(part) })
 }
 
 fn value(tally: &Tally, section: Section, name: &str) -> f64 {
@@ -64,7 +64,7 @@ fn value(tally: &Tally, section: Section, name: &str) -> f64 {
 #[test]
 fn a_detector_that_is_silent_or_never_silent_detects_nothing() {
     for speed in [0.0, 3.0] {
-        let tally = examined(Part::Breaths, 0.03, |_| Box::new(Constant(speed)));
+        let tally = scored(Part::Breaths, 0.03, |_| Box::new(Constant(speed)));
         assert!(value(&tally, Section::Breaths, "b all of 0.35 m/s or more") == 0.0, "{tally}");
         assert!(value(&tally, Section::Breaths, "h false triggers between breaths") == 0.0, "{tally}");
     }
@@ -72,14 +72,14 @@ fn a_detector_that_is_silent_or_never_silent_detects_nothing() {
 
 #[test]
 fn clear_breaths_are_clear_to_a_meter_of_level_and_so_are_noises() {
-    let breaths = examined(Part::Breaths, 0.06, |rate| Box::new(Meter::new(rate)));
+    let breaths = scored(Part::Breaths, 0.06, |rate| Box::new(Meter::new(rate)));
     println!("{breaths}");
     // The meter may be busy with another sound when a breath begins.
     assert!(value(&breaths, Section::Breaths, "a clear") > 0.6, "{breaths}");
     assert!(
         value(&breaths, Section::Breaths, "a clear") > value(&breaths, Section::Breaths, "b all of 0.35 m/s or more")
     );
-    let noises = examined(Part::Noises, 0.03, |rate| Box::new(Meter::new(rate)));
+    let noises = scored(Part::Noises, 0.03, |rate| Box::new(Meter::new(rate)));
     println!("{noises}");
     assert!(value(&noises, Section::Noises, "b doors and knocks") > 60.0, "{noises}");
     assert!(value(&noises, Section::Noises, "b handling") > 60.0, "{noises}");
@@ -89,7 +89,7 @@ fn clear_breaths_are_clear_to_a_meter_of_level_and_so_are_noises() {
 fn the_table_is_the_same_twice_and_another_with_another_seed() {
     let table = |seed| {
         let battery = Battery { size: 0.02, capsules: 2, seed, only: Some(Part::Kiosk) };
-        examine(&|rate| Box::new(Meter::new(rate)), &battery)
+        run(&|rate| Box::new(Meter::new(rate)), &battery)
     };
     let (first, second, third) = (table(1), table(1), table(2));
     assert_eq!(first.to_string(), second.to_string());

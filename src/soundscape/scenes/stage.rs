@@ -50,11 +50,6 @@ impl Stage {
         self.played = played.iter().map(|x| *x as f32).collect();
     }
 
-    /// Breaths so far; their levels are unknown.
-    pub fn breaths(&self) -> &[BreathLabel] {
-        &self.breaths
-    }
-
     /// A take by a microphone. The second capsule differs a little from the first.
     pub fn recorded(&self, microphone: &Microphone, seed: u64) -> Take {
         let microphones = [*microphone, microphone.second(seed)];
@@ -65,20 +60,9 @@ impl Stage {
             });
         let left = channels.next().unwrap_or_default();
         let right = channels.next();
-        Take {
-            breaths: self.labelled(microphone),
-            played: self
-                .played
-                .iter()
-                .copied()
-                .chain(std::iter::repeat(0.0))
-                .take(if self.played.is_empty() { 0 } else { left.len() })
-                .collect(),
-            left,
-            right,
-            events: self.events.clone(),
-            sample_rate: RATE,
-        }
+        let mut played = self.played.clone();
+        played.resize(if played.is_empty() { 0 } else { left.len() }, 0.0);
+        Take { breaths: self.labelled(microphone), played, left, right, events: self.events.clone(), sample_rate: RATE }
     }
 
     /// Labels with levels over the room: at the better of two capsules.

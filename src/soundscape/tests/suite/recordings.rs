@@ -15,7 +15,7 @@ const TELEPHONES_DB: [f64; 7] = [-17.0, 0.0, -5.0, -18.0, -25.0, -25.0, -24.0];
 /// Recordings of each test.
 const COUNT: u64 = 60;
 
-/// Gentle breaths at a telephone, from arrival to end: whoever breathes at it does not blow.
+/// Gentle breaths at a telephone, from arrival to end: to breathe is not to blow.
 fn telephones() -> Vec<Vec<f64>> {
     let mut random = Random::new(5);
     let recording = |seed: u64| {
