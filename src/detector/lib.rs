@@ -38,7 +38,6 @@ mod echo_estimate;
 pub mod features;
 pub mod floor;
 pub mod frontend;
-pub mod generate;
 mod incoherence;
 pub mod network;
 mod resample;

@@ -1,4 +1,4 @@
-//! Noises and simple filters that test sounds are made of. Deterministic, on whole buffers.
+//! Noises and simple filters that the sounds are made of. Deterministic, on whole buffers.
 
 use soffio_math::noise::Random;
 use soffio_math::{PI, cos, exp, ln};
