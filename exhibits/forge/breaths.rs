@@ -10,7 +10,7 @@ use soffio_soundscape::microphone::Microphone;
 /// Sample rate, Hz.
 const SAMPLE_RATE: u32 = 16_000;
 /// Peak pressure of full scale, Pa: a strong breath from 12 cm stays below it.
-const FULL_SCALE_PA: f64 = 80.0;
+const FULL_SCALE_PA: f64 = 40.0;
 
 /// A WAV file of a breath of `strength` m/s at the lips, `hold` s at full speed.
 pub fn wav(strength: f64, hold: f64, seed: u64) -> Result<Vec<u8>, hound::Error> {

@@ -48,7 +48,14 @@ fn visitor(manners: &[Manner], index: u64, spacing: f64, random: &mut Random) ->
     let first = Breath::random(Manner::Plain, person, distances, random);
     let breath = |manner: &Manner| {
         let drawn = Breath::random(*manner, person, distances, random);
+        // People stand in front of one capsule, or between both.
+        let beside = match (random.unit() * 3.0) as u32 {
+            0 if drawn.manner != Manner::Foam => 0.0,
+            1 => -0.5 * spacing,
+            _ => 0.5 * spacing,
+        };
         Breath {
+            beside,
             lead_in: random.range(PAUSE_S.0, PAUSE_S.1),
             azimuth_deg: first.azimuth_deg,
             port: first.port,

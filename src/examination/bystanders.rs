@@ -64,6 +64,7 @@ pub fn draught(
     let breath = |_| Breath {
         lead_in: random.range(1.5, 4.0),
         spacing,
+        beside: 0.5 * spacing,
         angle_deg: random.range(0.0, 4.0),
         ..Breath::random(Manner::Plain, Person::Adult, (0.09, 0.30), &mut random)
     };

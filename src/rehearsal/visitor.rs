@@ -137,7 +137,10 @@ impl Breath {
 
     /// Sound at each of 1 or 2 capsules with this spacing, m, from [`Breath::lips`] on; Pa at 16 kHz.
     pub fn sound(&self, capsules: usize, spacing: f64) -> Vec<Vec<f64>> {
-        let recipe = Recipe { spacing: if capsules > 1 { spacing } else { 0.0 }, ..self.recipe };
+        // The visitor stands in front of one of both capsules.
+        let spacing = if capsules > 1 { spacing } else { 0.0 };
+        let beside = if self.seed % 2 == 0 { 0.5 } else { -0.5 } * spacing;
+        let recipe = Recipe { spacing, beside, ..self.recipe };
         recipe.air(RATE, self.seed).pressure
     }
 }

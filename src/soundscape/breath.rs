@@ -6,10 +6,11 @@
 //!             └→ hiss, voice, whistle, 1 / distance ──────────────────────────────┘
 //! ```
 //!
-//! With the lips at the origin and the middle of the capsules at D on z, their spacing s along x, and the axis a of the jet:
+//! With the lips at the origin and the middle of the capsules at D on z, their spacing s along x, their middle beside the mouth by b, and the axis a of
+//! the jet:
 //!
 //! ```text
-//! c = (±s/2, 0, D)     a = (sin θ cos φ, sin θ sin φ, cos θ)     x = a · c     r = |c − x a − x w(t)|
+//! c = (b ± s/2, 0, D)     a = (sin θ cos φ, sin θ sin φ, cos θ)     x = a · c     r = |c − x a − x w(t)|
 //! ```
 //!
 //! w is the wandering of the aim, in radians. The noise of the grille is that of the edges of its holes, far above the eddies'
@@ -88,6 +89,9 @@ pub struct Breath {
     pub spread: f64,
     /// s, spacing of two capsules, m; 0 for one capsule.
     pub spacing: f64,
+    /// b, of the capsules' middle along their line from where the mouth is straight in front, m: half the spacing for a mouth in front
+    /// of one of them.
+    pub beside: f64,
     /// Port of the capsules.
     pub port: Port,
     /// Share of the speed that passes foam.
@@ -122,6 +126,7 @@ impl Default for Breath {
             unsteady: 1.0,
             spread: 0.09,
             spacing: 0.0,
+            beside: 0.0,
             port: Port { size: 0.004, steepness: 1.8 },
             foam: 1.0,
             hiss_db: 0.0,
@@ -169,17 +174,19 @@ impl Breath {
         (0..(self.duration() * STEPS_A_SECOND).round() as usize).map(at).collect()
     }
 
+    /// Places of the capsules from the lips, m.
+    fn capsules(&self) -> Vec<DVec3> {
+        let sides: &[f64] = if self.spacing > 0.0 { &[-0.5, 0.5] } else { &[0.0] };
+        sides.iter().map(|side| DVec3::new(self.beside + side * self.spacing, 0.0, self.distance)).collect()
+    }
+
     /// Places of the capsules: along the jet's mean axis, and across it in two directions, m.
     fn places(&self) -> Vec<DVec3> {
         let [angle, azimuth] = [self.angle_deg, self.azimuth_deg].map(f64::to_radians);
         let axis = DVec3::new(sin(angle) * cos(azimuth), sin(angle) * sin(azimuth), cos(angle));
         let (first, second) = axis.any_orthonormal_pair();
-        let sides: &[f64] = if self.spacing > 0.0 { &[-0.5, 0.5] } else { &[0.0] };
-        let place = |side: &f64| {
-            let at = DVec3::new(side * self.spacing, 0.0, self.distance);
-            DVec3::new(axis.dot(at), first.dot(at), second.dot(at))
-        };
-        sides.iter().map(place).collect()
+        let place = |at: DVec3| DVec3::new(axis.dot(at), first.dot(at), second.dot(at));
+        self.capsules().into_iter().map(place).collect()
     }
 
     /// Mean speed and fluctuation at each capsule.
@@ -248,12 +255,12 @@ impl Breath {
         let eddies = Eddies { length, large: LARGE, port: self.port, places: &places, air: &air };
         let velocities = eddies.velocities(r, &mut stream(1));
         let sound = lips::sound(&lips, self.manner, self.hiss_db, rate, &mut stream(2));
-        let mut pressure = Vec::new();
+        let (mut pressure, capsules) = (Vec::new(), self.capsules());
         for (capsule, (air, velocity)) in air.iter().zip(&velocities).enumerate() {
             let mut felt = eddies::pressure(&air.speed, velocity, r);
             let edges = white(felt.len(), &mut stream(10 + capsule as u64));
             let edges = normalised(low_passed(high_passed(edges, r, 300.0, 1), r, 4000.0_f64.min(0.4 * r), 1));
-            let away = DVec3::new((capsule as f64 - 0.5) * self.spacing, 0.0, self.distance).length();
+            let away = capsules[capsule].length();
             let grille = pascals(GRILLE_DB + self.grille_db) / (GRILLE_M_S * GRILLE_M_S * GRILLE_M_S);
             for (i, p) in felt.iter_mut().enumerate() {
                 let speed = air.speed[((i as f64 * STEPS_A_SECOND / r) as usize).min(air.speed.len() - 1)];

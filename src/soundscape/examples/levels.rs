@@ -57,9 +57,11 @@ fn at_distance(distance: f64) {
     let fast = breath.duration() / begun.elapsed().as_secs_f64();
     let label = breath.label(0.0, &air.speeds);
     let steady = &air.pressure[0][(2.3 * f64::from(RATE)) as usize..5 * RATE as usize];
-    let bands = band_powers(steady, f64::from(RATE), &[8.0, 60.0, 7900.0]);
+    let mean = steady.iter().sum::<f64>() / steady.len() as f64;
+    let moving: Vec<f64> = steady.iter().map(|p| p - mean).collect();
+    let bands = band_powers(&moving, f64::from(RATE), &[20.0, 60.0, 7900.0]);
     println!(
-        "  {:3.0} cm: {:4.2} m/s, arrives after {:4.2} s, {:5.1} dB of sound, {:3.0} % below 60 Hz, {fast:.0} times real time",
+        "  {:3.0} cm: {:4.2} m/s, arrives after {:4.2} s, {:5.1} dB of sound, {:3.0} % of it above 20 Hz below 60 Hz, {fast:.0} times real time",
         100.0 * distance,
         label.peak_speed,
         label.arrival - label.lips,
