@@ -21,8 +21,8 @@
 //! has.
 
 use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, power_to_db, powers};
-use super::floor::Floor;
-use super::incoherence::Incoherence;
+use super::noise_floor::Floor;
+use super::coherence::Coherence;
 use super::spectrum::{Framer, Power, TRANSFORM};
 use soffio_math::{PI, cos, tanh};
 
@@ -33,8 +33,8 @@ pub const SHAPE: std::ops::Range<usize> = BANDS..2 * BANDS;
 /// Inputs of the network for one frame.
 pub type Inputs = [f32; COUNT];
 
-/// Smallest power of a band (−85 dBFS): below it lies a converter's own noise.
-const MIN_POWER: f64 = 3.2e-9;
+/// Smallest power of a band (−78 dBFS): below it lies a converter's own noise.
+const MIN_POWER: f64 = 1.6e-8;
 /// Part of the predicted echo that may remain after subtraction, and its part that two capsules do not share.
 const RESIDUE: f64 = 0.03;
 /// Bins that may carry harmonics of a voice, 94–1000 Hz.
@@ -43,11 +43,11 @@ const HARMONICS: std::ops::Range<usize> = 6..64;
 const PITCH_LAGS: std::ops::Range<usize> = 20..100;
 const LAGS: usize = PITCH_LAGS.end - PITCH_LAGS.start;
 /// R of the compression of a rise, dB. How far a sound rises says how near and how loud it is, not what it is.
-const RISE_DB: f64 = 12.0;
+const RISE_DB: f64 = 20.0;
 /// R of the compression of the shape, dB.
 const SHAPE_DB: f64 = 30.0;
 /// R of the compression of strangeness.
-const STRANGE: f64 = 4.0;
+const STRANGE: f64 = 8.0;
 /// Smallest spread, dB: the scatter of noise in a wide band.
 const MIN_SPREAD_DB: f64 = 1.5;
 
@@ -58,7 +58,7 @@ pub struct Features {
     pub floor: Floor<BANDS>,
     /// Floor of the incoherent power of the wide bands.
     pub incoherent_floor: Floor<WIDE>,
-    incoherence: Incoherence,
+    coherence: Coherence,
     /// cos(2π k τ / N) for each bin k of the harmonics, and each lag τ.
     cosines: Vec<[f32; LAGS]>,
 }
@@ -84,7 +84,7 @@ impl Features {
         Self {
             floor: Floor::new(),
             incoherent_floor: Floor::new(),
-            incoherence: Incoherence::new(),
+            coherence: Coherence::new(),
             cosines: HARMONICS
                 .map(|k| {
                     let turn = |lag: usize| 2.0 * PI * (k * (PITCH_LAGS.start + lag)) as f64 / TRANSFORM as f64;
@@ -127,7 +127,7 @@ impl Features {
 
     /// Inputs of two capsules.
     fn compare(&mut self, framer: &Framer, echo: &[f64; WIDE], learn: bool, inputs: &mut [f32]) {
-        let parts = self.incoherence.push(&framer.channels, framer.scale);
+        let parts = self.coherence.push(&framer.channels, framer.scale);
         let levels: [f64; WIDE] =
             std::array::from_fn(|b| power_to_db((parts[b].0 - RESIDUE * echo[b]).max(0.0) + MIN_POWER));
         if learn || self.incoherent_floor.is_settling() {

@@ -33,13 +33,13 @@
 
 mod agc_detector;
 pub mod bands;
+mod coherence;
 mod decision;
 mod echo_estimate;
 pub mod features;
-pub mod floor;
 pub mod frontend;
-mod incoherence;
 pub mod network;
+pub mod noise_floor;
 mod resample;
 pub mod spectrum;
 
@@ -230,8 +230,8 @@ impl BlowDetector {
         let settling = floor.is_settling();
         let unknown_echo = !self.decision.blowing && self.frontend.echo.is_learning();
         self.decision.push(&self.settings.rules, (!settling && !unknown_echo).then_some(self.output.log_odds));
-        let treble = &measured.levels[BANDS - 2..];
-        self.agc.push(self.decision.blowing, treble[0].max(treble[1]));
+        let highest = &measured.levels[BANDS - 2..];
+        self.agc.push(self.decision.blowing, highest[0].max(highest[1]));
         self.estimate.gain_control = self.agc.is_detected();
         self.log_speed += blend(SPEED_S) * (self.output.log_speed - self.log_speed);
         let reason = match () {

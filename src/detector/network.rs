@@ -22,7 +22,7 @@ use super::features::{COUNT, Inputs};
 use soffio_math::exp;
 
 /// Cells of the recurrent state.
-pub const CELLS: usize = 48;
+pub const CELLS: usize = 64;
 /// Inputs of the speed's layer: the state and the levels.
 pub const SPEED_INPUTS: usize = CELLS + BANDS;
 /// Cells of the speed's layer.

@@ -145,7 +145,7 @@ fn score(make: &Make<'_>, take: &Take, tally: &mut Tally) {
             tally.share(section, "f holds of 5 s tracked for 90 %, clear", answer.tracked >= TRACKED);
         }
     }
-    let triggers = readings.false_triggers(&take.breaths, 0.0);
+    let triggers = readings.false_positives(&take.breaths, 0.0);
     tally.rate(section, "h false triggers between breaths", triggers, take.duration());
 }
 
@@ -165,7 +165,7 @@ fn other_microphones(make: &Make<'_>, stage: &Stage, open: &Microphone, seed: u6
         for (breath, _) in take.breaths.iter().zip(&clear).filter(|(_, clear)| **clear) {
             tally.share(Section::Microphones, name, readings.answer(breath).detected);
         }
-        let triggers = readings.false_triggers(&take.breaths, 0.0);
+        let triggers = readings.false_positives(&take.breaths, 0.0);
         tally.rate(Section::Microphones, &format!("{name}: false triggers"), triggers, take.duration());
     };
     compare("a open (20 Hz, order 1)", &plain);

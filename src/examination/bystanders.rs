@@ -43,7 +43,7 @@ pub fn noise(
     };
     stage.add_noise(LEARNING_S, &sound, &events);
     let take = stage.recorded(&Microphone::random(&mut random), seed ^ index);
-    let triggers = Readings::of(make, &take).false_triggers(&[], LEARNING_S);
+    let triggers = Readings::of(make, &take).false_positives(&[], LEARNING_S);
     let mut tally = Tally::default();
     let name = kind.map_or("a museum".to_owned(), |kind| format!("b {}", kind.name()));
     tally.rate(Section::Noises, &name, triggers, MINUTE_S);
@@ -84,7 +84,7 @@ pub fn draught(
     let readings = Readings::of(make, &take);
     let mut tally = Tally::default();
     let name = format!("{speed:.1} m/s, length {length:4.2} m");
-    let triggers = readings.false_triggers(&take.breaths, learning);
+    let triggers = readings.false_positives(&take.breaths, learning);
     tally.rate(Section::Draughts, &format!("a triggers in {name}"), triggers, whole - learning);
     tally.rate(Section::Draughts, "b triggers in all draughts", triggers, whole - learning);
     for breath in take.breaths.iter().filter(|breath| is_clear(breath)) {
@@ -104,7 +104,7 @@ pub fn kiosk(make: &Make<'_>, scenario: &Scenario, (seed, index): (u64, u64), ca
     let echo = scenario.echo(&played, level, capsules, &mut random);
     stage.add_echo(&played, &echo);
     let take = stage.recorded(&Microphone::random(&mut random), seed ^ index);
-    let triggers = Readings::of(make, &take).false_triggers(&[], LEARNING_S);
+    let triggers = Readings::of(make, &take).false_positives(&[], LEARNING_S);
     let mut tally = Tally::default();
     tally.rate(Section::Kiosk, "self-triggers at full volume", triggers, MINUTE_S - LEARNING_S);
     tally

@@ -92,7 +92,7 @@ impl Readings {
     }
 
     /// Number of times that a speed begins away from all breaths, after some seconds of learning.
-    pub fn false_triggers(&self, breaths: &[BreathLabel], learning_s: f64) -> usize {
+    pub fn false_positives(&self, breaths: &[BreathLabel], learning_s: f64) -> usize {
         let begins = self.speeds.windows(2).enumerate().filter(|(_, pair)| pair[0] == 0.0 && pair[1] > 0.0);
         let times = begins.map(|(i, _)| (i + 1) as f64 * BLOCK_S);
         times

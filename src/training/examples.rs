@@ -1,7 +1,7 @@
 //! Training examples: scenes of the generator as the detector's front end measures them, with their targets.
 //!
 //! A frame is a breath where its air is fast enough at the capsule and its sound stands out from everything else, and no breath where there
-//! is no air. Between the two nobody can tell, and the frame does not count.
+//! is no air. Between the two it is unknown, and the frame does not count.
 
 use super::generator::{self, Scene};
 use super::gradient::Example;
@@ -16,6 +16,8 @@ use soffio_math::noise::{Random, hash_words};
 const SLOWEST_AIR_M_S: f32 = 0.35;
 /// Least level of a breath over all other sound in its best octave, dB.
 const LEAST_OVER_DB: f32 = 3.0;
+/// Least rise of a band over its floor, dB: what gates and noise suppression take away, nobody can hear.
+const LEAST_RISE_DB: f64 = 6.0;
 /// Time after a breath that does not count, s: the analysis window and the room still hold it.
 const AFTER_S: f64 = 0.1;
 /// Time after which a detector notices a breath and freezes its floors, s.
@@ -26,9 +28,9 @@ const FROZEN_S: f64 = 8.0;
 /// Largest half of the colour of a band: 2.4 dB of the shape's 30 dB, twice.
 const COLOUR: f64 = 0.08;
 
-/// Capsules that a scene is measured with. The first one is nearer to the jet's axis.
+/// Channels that a scene is measured with. The first one is nearer to the jet's axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Capsules {
+pub enum Channels {
     /// The first alone.
     One,
     /// Both; `swapped`: the second one comes first.
@@ -39,15 +41,15 @@ pub enum Capsules {
 }
 
 /// Examples of a scene.
-pub fn of_scene(scene: &Scene, capsules: Capsules) -> Vec<Example> {
+pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
     let mut frontend = Frontend::new(scene.rate);
     let mut examples = Vec::with_capacity((scene.air.len() as f64 * 0.001 / FRAME_S) as usize);
     let (mut breathing_s, mut since_s) = (0.0, f64::INFINITY);
     let per_ms = scene.rate as usize / 1000;
     let (first, second) = match capsules {
-        Capsules::One => (&scene.capsules[0], None),
-        Capsules::Two { swapped: false } => (&scene.capsules[0], Some(&scene.capsules[1])),
-        Capsules::Two { swapped: true } => (&scene.capsules[1], Some(&scene.capsules[0])),
+        Channels::One => (&scene.capsules[0], None),
+        Channels::Two { swapped: false } => (&scene.capsules[0], Some(&scene.capsules[1])),
+        Channels::Two { swapped: true } => (&scene.capsules[1], Some(&scene.capsules[0])),
     };
     for (i, left) in first.iter().enumerate() {
         let right = second.map(|samples| samples[i]);
@@ -60,7 +62,7 @@ pub fn of_scene(scene: &Scene, capsules: Capsules) -> Vec<Example> {
         breathing_s = if breath { breathing_s + FRAME_S } else { 0.0 };
         since_s = if air > 0.0 { 0.0 } else { since_s + FRAME_S };
         let Some(measured) = frame.measured else { continue };
-        let counts = breath || since_s > AFTER_S;
+        let counts = if breath { measured.rise_db >= LEAST_RISE_DB } else { since_s > AFTER_S };
         examples.push(Example {
             inputs: measured.inputs,
             levels: measured.levels.map(|level| level as f32),
@@ -88,7 +90,7 @@ pub fn of_seed(seed: u64, scenes: std::ops::Range<u64>) -> Vec<Vec<Example>> {
         let scene = generator::scene(seed, scenes.start + i as u64);
         let swapped = hash_words(&[seed, scenes.start + i as u64]).is_multiple_of(2);
         let mut random = Random::new(hash_words(&[seed, scenes.start + i as u64, 3]));
-        [Capsules::One, Capsules::Two { swapped }].map(|capsules| {
+        [Channels::One, Channels::Two { swapped }].map(|capsules| {
             let mut examples = of_scene(&scene, capsules);
             colour(&mut examples, &mut random);
             examples

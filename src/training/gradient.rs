@@ -28,7 +28,7 @@ pub struct Example {
     pub levels: [f32; BANDS],
     /// ŷ: 1 breath, 0 none.
     pub target: f32,
-    /// w; 0 where nobody can tell.
+    /// w; 0 where nobody knows.
     pub weight: f32,
     /// ln U of the air at the capsule, U in m/s; used where the target is 1.
     pub log_air: f32,

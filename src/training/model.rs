@@ -25,7 +25,7 @@ pub fn written(network: &mut Network, facts: &[(&str, String)]) -> Result<Vec<u8
     safetensors::serialize(views, Some(facts)).map_err(|error| error.to_string())
 }
 
-/// One word that tells two networks apart.
+/// One word that distinguishes two networks.
 pub fn hash(network: &mut Network) -> String {
     let mut hash = StateHash::default();
     network.tensors_mut().iter().flat_map(|(_, weights)| weights.iter()).for_each(|w| hash.add(f64::from(*w)));

@@ -12,7 +12,7 @@ const RELEASE_S: f64 = 0.3;
 
 #[test]
 fn a_breath_of_any_strength_makes_wind_that_ends_with_it_and_grows_with_it() {
-    let mut means = Vec::new();
+    let mut averages = Vec::new();
     for (seed, speed) in (0..).zip([3.8, 6.0, 9.0, 13.0, 17.0]) {
         let breath = Breath { speed, ..Breath::default() };
         let label = breath.label(0.0, &breath.speeds(seed));
@@ -22,9 +22,9 @@ fn a_breath_of_any_strength_makes_wind_that_ends_with_it_and_grows_with_it() {
         assert!(first < label.arrival + LATENCY_S, "{speed} m/s, air from {} s: wind at {first} s", label.arrival);
         assert!(first > breath.lead_in, "{speed} m/s: wind at {first} s, before the breath");
         assert!(last < label.end + RELEASE_S, "{speed} m/s, air until {} s: wind until {last} s", label.end);
-        means.push(blown.iter().map(|(_, e)| e.speed).sum::<f64>() / blown.len() as f64);
+        averages.push(blown.iter().map(|(_, e)| e.speed).sum::<f64>() / blown.len() as f64);
     }
-    assert!(means.is_sorted() && means[0] > 1.0 && means[4] <= 17.0, "speeds at the lips: {means:.1?}");
+    assert!(averages.is_sorted() && averages[0] > 1.0 && averages[4] <= 17.0, "speeds at the lips: {averages:.1?}");
 }
 
 #[test]

@@ -10,7 +10,7 @@
 //! largest rise that counts. The bound M/τ↑ is 0.75 dB a second, so a breath of five seconds hardly lowers its own rise.
 //!
 //! The rise l − F says how loud a sound is here and now. The quotient (l − F)/s says how unusual it is in this room: in a draught
-//! the level of turbulence leaps by 20 dB all the time, and s learns that within a minute. A breath must exceed it.
+//! the level of turbulence jumps by 20 dB all the time, and s learns that within a minute. A breath must exceed it.
 //!
 //! The asymmetric average follows minimum statistics (Martin, "Noise power spectral density estimation", IEEE Trans. Speech
 //! Audio Process. 9, 2001) without its search over a window.

@@ -34,11 +34,11 @@ struct CrossSpectrum {
 
 /// Cross spectra of two capsules.
 #[derive(Clone, Debug)]
-pub struct Incoherence {
+pub struct Coherence {
     bins: Vec<CrossSpectrum>,
 }
 
-impl Incoherence {
+impl Coherence {
     /// Nothing is known yet.
     pub fn new() -> Self {
         Self { bins: vec![CrossSpectrum::default(); BINS] }
@@ -81,7 +81,7 @@ mod tests {
     /// Mean incoherent share of each wide band over two seconds.
     fn share(mut frame: impl FnMut(usize, [Complex<f64>; 2]) -> [Complex<f64>; 2]) -> [f64; WIDE] {
         const FRAMES: usize = 250;
-        let (mut incoherence, mut random) = (Incoherence::new(), Random::new(5));
+        let (mut coherence, mut random) = (Coherence::new(), Random::new(5));
         let mut noise = || Complex::new(random.signed(), random.signed());
         let mut mean = [0.0; WIDE];
         for _ in 0..FRAMES {
@@ -89,7 +89,7 @@ mod tests {
             for k in 1..BINS {
                 [pair[0][k], pair[1][k]] = frame(k, [noise(), noise()]);
             }
-            let parts = incoherence.push(&pair, 1.0);
+            let parts = coherence.push(&pair, 1.0);
             mean.iter_mut().zip(parts).for_each(|(mean, part)| *mean += part.1 / FRAMES as f64);
         }
         mean
