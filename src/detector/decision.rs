@@ -36,8 +36,6 @@ impl Default for Rules {
 pub struct Decision {
     /// A breath is detected.
     pub blowing: bool,
-    /// Time since it began, s.
-    pub blowing_s: f64,
     /// The cumulative sum c, nat·s.
     sum: f64,
     /// Progress of the sum towards a breath, 0 … 1.
@@ -55,7 +53,6 @@ impl Decision {
         self.sum = (self.sum + (self.log_odds - drift) * FRAME_S).clamp(0.0, rules.full);
         self.progress = (self.sum / rules.on).min(1.0);
         self.blowing = if self.blowing { self.sum > 0.0 } else { self.sum >= rules.on };
-        self.blowing_s = if self.blowing { self.blowing_s + FRAME_S } else { 0.0 };
     }
 
     /// Progress of the sum times the probability of breath in the last frame, 0 … 1.

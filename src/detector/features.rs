@@ -94,16 +94,13 @@ impl Features {
         }
     }
 
-    /// Measures a frame; `echo` is the predicted power of the loudspeaker's echo, `stereo` says that there are two capsules, and
-    /// `learn` that the floors may learn from it.
-    pub fn push(&mut self, framer: &Framer, echo: &Power, stereo: bool, learn: bool) -> Frame {
+    /// Measures a frame; `echo` is the predicted power of the loudspeaker's echo, and `stereo` says that there are two capsules.
+    pub fn push(&mut self, framer: &Framer, echo: &Power, stereo: bool) -> Frame {
         let [power, echo_power]: [[f64; BANDS]; 2] = [&framer.microphone, echo].map(|p| powers(p, &EDGES));
         let levels: [f64; BANDS] = std::array::from_fn(|b| {
             power_to_db((power[b] - echo_power[b]).max(RESIDUE * echo_power[b]).max(0.0) + MIN_POWER)
         });
-        if learn || self.floor.is_settling() {
-            self.floor.learn(&levels);
-        }
+        self.floor.learn(&levels);
         let mut inputs = [0.0; COUNT];
         let mut rise_db = 0.0_f64;
         let loudest = levels.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -120,19 +117,17 @@ impl Features {
         inputs[3 * BANDS..3 * BANDS + 2].copy_from_slice(&[periodicity, share as f32]);
         if stereo {
             inputs[3 * BANDS + 2] = 1.0;
-            self.compare(framer, &powers(echo, &WIDE_EDGES), learn, &mut inputs[3 * BANDS + 3..]);
+            self.compare(framer, &powers(echo, &WIDE_EDGES), &mut inputs[3 * BANDS + 3..]);
         }
         Frame { inputs, levels, rise_db, echo: share, periodicity }
     }
 
     /// Inputs of two capsules.
-    fn compare(&mut self, framer: &Framer, echo: &[f64; WIDE], learn: bool, inputs: &mut [f32]) {
+    fn compare(&mut self, framer: &Framer, echo: &[f64; WIDE], inputs: &mut [f32]) {
         let parts = self.coherence.push(&framer.channels, framer.scale);
         let levels: [f64; WIDE] =
             std::array::from_fn(|b| power_to_db((parts[b].0 - RESIDUE * echo[b]).max(0.0) + MIN_POWER));
-        if learn || self.incoherent_floor.is_settling() {
-            self.incoherent_floor.learn(&levels);
-        }
+        self.incoherent_floor.learn(&levels);
         for b in 0..WIDE {
             let rise = self.incoherent_floor.rise(b, levels[b]);
             inputs[b] = compressed(rise, RISE_DB);

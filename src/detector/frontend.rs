@@ -96,9 +96,9 @@ impl Frontend {
         }
     }
 
-    /// Takes one sample of each capsule and of the loudspeaker; returns a frame where one is ready. Neither floors nor the echo
-    /// are learnt where `learn` is false, so that a breath does not become part of its own reference.
-    pub fn push(&mut self, left: f32, right: Option<f32>, played: f32, learn: bool) -> Option<Frame> {
+    /// Takes one sample of each capsule and of the loudspeaker; returns a frame where one is ready. The echo is not learnt where
+    /// `learn_echo` is false, so that a breath is not taken for the kiosk's response to it.
+    pub fn push(&mut self, left: f32, right: Option<f32>, played: f32, learn_echo: bool) -> Option<Frame> {
         let first = self.input.push(left);
         let played = if played.is_finite() { f64::from(played.clamp(-1.0, 1.0)) } else { 0.0 };
         let second = right.map(|x| self.input.push(x));
@@ -107,14 +107,14 @@ impl Frontend {
         let left = self.left.push(first);
         let right = if self.stereo { self.right.push(second.unwrap_or(first)) } else { left };
         let sample = || Some(Sample { left: left?, right: right?, reference: reference? });
-        sample().is_some_and(|sample| self.framer.push(sample)).then(|| self.frame(learn))
+        sample().is_some_and(|sample| self.framer.push(sample)).then(|| self.frame(learn_echo))
     }
 
-    fn frame(&mut self, learn: bool) -> Frame {
+    fn frame(&mut self, learn_echo: bool) -> Frame {
         let input = self.input.take();
         let measured = (input.fault_hold == 0).then(|| {
-            self.echo.push(&self.framer.microphone, &self.framer.reference, learn);
-            self.features.push(&self.framer, &self.echo.predicted, self.stereo, learn)
+            self.echo.push(&self.framer.microphone, &self.framer.reference, learn_echo);
+            self.features.push(&self.framer, &self.echo.predicted, self.stereo)
         });
         Frame {
             measured,

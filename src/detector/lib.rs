@@ -70,8 +70,6 @@ const MIN_RISE_DB: f64 = 5.0;
 const VOICED: f32 = 0.5;
 /// Share of the echo in the rumble from which a sound counts as the loudspeaker's.
 const MOSTLY_ECHO: f64 = 0.5;
-/// Longest breath during which the floors are not learnt, s: what lasts longer is a machine or a draught, and the floors learn it.
-const LONGEST_S: f64 = 8.0;
 
 /// Output of the detector after the last sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -195,8 +193,7 @@ impl BlowDetector {
     }
 
     fn push_sample(&mut self, left: f32, right: Option<f32>, played: f32) {
-        let learn = !self.decision.blowing || self.decision.blowing_s > LONGEST_S;
-        if let Some(frame) = self.frontend.push(left, right, played, learn) {
+        if let Some(frame) = self.frontend.push(left, right, played, !self.decision.blowing) {
             self.process_frame(&frame);
         }
     }

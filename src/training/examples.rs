@@ -20,10 +20,8 @@ const LEAST_OVER_DB: f32 = 3.0;
 const LEAST_RISE_DB: f64 = 6.0;
 /// Time after a breath that does not count, s: the analysis window and the room still hold it.
 const AFTER_S: f64 = 0.1;
-/// Time after which a detector notices a breath and freezes its floors, s.
+/// Time after which a detector notices a breath and stops learning the echo, s.
 const NOTICED_S: f64 = 0.12;
-/// Longest breath during which the floors are frozen, s: as in the detector.
-const FROZEN_S: f64 = 8.0;
 
 /// Largest half of the colour of a band: 2.4 dB of the shape's 30 dB, twice.
 const COLOUR: f64 = 0.08;
@@ -54,8 +52,8 @@ pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
     for (i, left) in first.iter().enumerate() {
         let right = second.map(|samples| samples[i]);
         let played = scene.played.get(i).copied().unwrap_or(0.0);
-        let learn = !(NOTICED_S..FROZEN_S).contains(&breathing_s);
-        let Some(frame) = frontend.push(*left, right, played, learn) else { continue };
+        let learn_echo = breathing_s < NOTICED_S;
+        let Some(frame) = frontend.push(*left, right, played, learn_echo) else { continue };
         let ms = (i / per_ms).min(scene.air.len() - 1);
         let (air, over_db) = (scene.air[ms], scene.over_db[ms]);
         let breath = air >= SLOWEST_AIR_M_S && over_db >= LEAST_OVER_DB;
