@@ -6,6 +6,8 @@
 //! c ← clamp(c + (ℓ − drift) Δt, 0, full),   breath begins at c ≥ on, ends at c = 0
 //! ```
 //!
+//! There is no drift during a breath. A full sum is the hold through a dip: with the lowest ℓ it lasts full / 4 nats = 75 ms.
+//!
 //! ℓ is clamped first. So even the surest breath needs on / (limit − drift) to begin, which is longer than a pop or a clap. A
 //! doubtful breath needs longer, and one with ℓ below the drift never begins.
 //!

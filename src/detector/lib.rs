@@ -98,7 +98,6 @@ pub struct BlowEstimate {
     pub gain_control: bool,
 }
 
-/// Reason for the detector's decision.
 /// Why the detector decided as it did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reason {

@@ -2,7 +2,7 @@
 //! types, so their doc comments are the help that an editor shows.
 //!
 //! Points are a child node's name or `[x, y, z]` in node space; glTF axes: metres, right-handed, +Y up. Unknown keys
-//! are refused, except those that begin with `x_`, which are ignored.
+//! are refused, except those that begin with `x_`, which are ignored, and old names ([`super::renamed`]), which cause a warning.
 
 mod bodies;
 mod combinations;
