@@ -125,7 +125,7 @@ impl Graph {
         self.find_needed(bus, states);
     }
 
-    /// Evaluates the bound numbers at a grid point. `time` is the synth's, s.
+    /// Evaluates the parameters that follow an input, at a point of the control grid. `time` is the synth's, s.
     pub fn control(
         &self,
         bus: Bus,
