@@ -227,7 +227,7 @@ def check_terms():
         parts = one["term"].lower().split()
         path = os.path.join(ROOT, one["file"])
         text = open(path, encoding="utf-8").read() if os.path.isfile(path) else ""
-        names = [one["file"]] + re.findall(r"\b(?:struct|enum|trait|fn|type|mod|pub) (\w+)", text)
+        names = [one["file"]] + re.findall(r"\b(?:struct|enum|trait|fn|type|mod|pub(?= \w+:)) (\w+)", text)
         if not text or not any("".join(parts) in name.lower().replace("_", "").replace("-", "") for name in names):
             print(f"“{one['term']}” does not lead to {one['file']}")
             good = False

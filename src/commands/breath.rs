@@ -127,11 +127,9 @@ fn word(reason: Reason) -> &'static str {
         Reason::Settling => "settling",
         Reason::Quiet => "quiet",
         Reason::Voiced => "voiced",
-        Reason::MidBand => "mid-band",
-        Reason::Impulse => "impulse",
+        Reason::OtherSound => "other-sound",
         Reason::Pending => "pending",
         Reason::Blow => "blow",
-        Reason::TimedOut => "timed-out",
         Reason::LoudspeakerEcho => "loudspeaker-echo",
         Reason::Fault => "fault",
     }

@@ -9,7 +9,7 @@
 //!
 //! Drops of 6 dB or more after two of the last three breaths mean gain control.
 
-use super::features::{Levels, blend};
+use super::bands::blend;
 use super::spectrum::FRAME_S;
 
 /// Smallest drop that counts, dB: the ambient noise itself varies by less.
@@ -35,9 +35,8 @@ pub struct AgcDetector {
 }
 
 impl AgcDetector {
-    /// Takes one frame.
-    pub fn push(&mut self, blowing: bool, levels: &Levels) {
-        let level = levels.agc_band_dbfs;
+    /// Takes the level of one frame above 1.8 kHz, dB of full scale.
+    pub fn push(&mut self, blowing: bool, level: f64) {
         self.frames += 1;
         let early = 1.0 / self.frames as f64;
         self.now += blend(0.06).max(early) * (level - self.now);

@@ -29,7 +29,7 @@
 //! - sustained output that does *not* arrive lowers the coupling: c ≤ 1.5 · received power / least played power over all lags. The
 //!   received power is averaged over 120 ms, since dips of noise prove nothing.
 
-use super::features::blend;
+use super::bands::blend;
 use super::spectrum::{BINS, FRAME_S, Power, band};
 
 /// Longest lag, frames (0.6 s).
@@ -166,11 +166,6 @@ impl EchoEstimate {
     /// True during the first second of sound, while the coupling is unknown.
     pub fn is_learning(&self) -> bool {
         self.audible > 0 && (self.sounded as f64) * FRAME_S < LEARNING_S
-    }
-
-    /// True where the echo is a tenth or more of the low band's power, so that it would raise the noise floor.
-    pub fn masks_low_band(&self, microphone: &Power) -> bool {
-        band(&self.predicted, EDGES[0], EDGES[1]) > 0.1 * band(microphone, EDGES[0], EDGES[1])
     }
 
     /// Index into the rings of played spectra, `lag` frames ago.

@@ -1,91 +1,116 @@
-//! Noise-floor tracker: an asymmetric exponential average per power, fast down and slow up, with limited input.
+//! Noise floor of each band, and how far the band usually stands above it.
 //!
 //! ```text
-//! F ← F + w↓ (S − F)                      where S < F
-//! F ← F + w↑ (min(S, 4 F + Q) − F)        else
+//! F ← F + (Δt / τ↑) · min(l − F, M)         where l > F      floor, dB
+//! F ← F + (Δt / τ↓) · (l − F)               where l ≤ F
+//! s² ← s² + (Δt / τ_s) · (min(l − F, R)² − s²)                spread about the floor, dB²
 //! ```
 //!
-//! Symbols: S measured power, F noise floor, Q smallest floor; w↓ and w↑ the weights of a frame in averages over 0.4 and 1.5 s.
-//! The limit makes a loud bang, such as a door, raise F by at most 9 dB a second. When a crowd leaves, F falls at once.
+//! Symbols: l level of the band, dB of full scale; τ↑, τ↓, τ_s time constants; M the largest step that raises the floor, R the
+//! largest rise that counts. The bound M/τ↑ is 0.75 dB a second, so a breath of five seconds hardly lowers its own rise.
+//!
+//! The rise l − F says how loud a sound is here and now. The quotient (l − F)/s says how unusual it is in this room: in a draught
+//! the level of turbulence jumps by 20 dB all the time, and s learns that within two minutes. A breath must exceed it.
+//! Nothing is frozen during a breath: the training sees the same floors as a gallery.
+//!
+//! The asymmetric average follows minimum statistics (Martin, "Noise power spectral density estimation", IEEE Trans. Speech
+//! Audio Process. 9, 2001) without its search over a window.
 
-use super::bands::blend;
+use super::spectrum::FRAME_S;
 
-/// Time constant of a falling floor, s.
-const DOWN_S: f64 = 0.4;
-/// Time constant of a rising floor, s.
-const UP_S: f64 = 1.5;
-/// A frame's power enters with at most this multiple of the floor.
-const MAX_RATIO: f64 = 4.0;
+/// Time constant of a rising floor τ↑, s.
+const UP_S: f64 = 8.0;
+/// Time constant of a falling floor τ↓, s: a crowd that leaves is forgotten at once.
+const DOWN_S: f64 = 1.0;
+/// Largest step M that raises the floor, dB.
+const MOST_UP_DB: f64 = 6.0;
+/// Time constant of the spread τ_s, s.
+const SPREAD_S: f64 = 120.0;
+/// Largest rise R in the spread, dB: one slam must not count for minutes.
+const MOST_SPREAD_DB: f64 = 25.0;
+/// Spread at first, dB, and the time for which it counts, s: that of noise in bands of a few bins.
+const FIRST_SPREAD: (f64, f64) = (6.0, 20.0);
+/// Time in which the first floor is a plain mean, s.
+const FIRST_S: f64 = 0.25;
 
-/// Weights of one frame in the noise floor.
-#[derive(Clone, Copy, Debug)]
-pub struct FloorWeights {
-    /// Weight of a power below the floor, w↓.
-    pub down: f64,
-    /// Weight of a power above the floor, w↑.
-    pub up: f64,
+/// Floor and spread of `N` bands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor<const N: usize> {
+    /// F, dB of full scale.
+    pub level: [f64; N],
+    /// s², dB².
+    spread: [f64; N],
+    /// Time that has been learnt, s.
+    seconds: f64,
 }
 
-impl FloorWeights {
-    /// The weights once the floor is known.
-    pub fn steady() -> Self {
-        Self { down: blend(DOWN_S), up: blend(UP_S) }
+impl<const N: usize> Floor<N> {
+    /// Nothing is known yet.
+    pub fn new() -> Self {
+        Self { level: [0.0; N], spread: [FIRST_SPREAD.0 * FIRST_SPREAD.0; N], seconds: 0.0 }
     }
 
-    /// The weights of the `n`-th frame, from 1: the first frames form a plain mean.
-    pub fn nth(n: u64) -> Self {
-        let (mean, known) = (1.0 / n.max(1) as f64, Self::steady());
-        Self { down: known.down.max(mean), up: known.up.max(mean) }
+    /// True until a first floor is known.
+    pub fn is_settling(&self) -> bool {
+        self.seconds < FIRST_S
     }
 
-    /// Updates a floor with a measured power; `min_floor` lets a floor of 0 rise.
-    pub fn update(self, floor: &mut f64, power: f64, min_floor: f64) {
-        *floor += if power < *floor {
-            self.down * (power - *floor)
-        } else {
-            self.up * (power.min(MAX_RATIO * *floor + min_floor) - *floor)
-        };
+    /// Learns the levels of one frame, dB of full scale.
+    pub fn learn(&mut self, levels: &[f64; N]) {
+        self.seconds += FRAME_S;
+        let first = FRAME_S / self.seconds;
+        let spread_weight = FRAME_S / (self.seconds + FIRST_SPREAD.1).min(SPREAD_S);
+        for ((floor, spread), level) in self.level.iter_mut().zip(&mut self.spread).zip(levels) {
+            let rise = level - *floor;
+            if self.seconds < FIRST_S {
+                *floor += first * rise;
+                continue;
+            }
+            *floor +=
+                if rise > 0.0 { FRAME_S / UP_S * rise.min(MOST_UP_DB) } else { FRAME_S / DOWN_S * rise };
+            let counted = rise.clamp(-MOST_SPREAD_DB, MOST_SPREAD_DB);
+            *spread += spread_weight * (counted * counted - *spread);
+        }
+    }
+
+    /// Rise of a band over its floor, dB.
+    pub fn rise(&self, band: usize, level: f64) -> f64 {
+        level - self.level[band]
+    }
+
+    /// s, dB.
+    pub fn spread(&self, band: usize) -> f64 {
+        self.spread[band].sqrt()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::bands::power_to_db;
-    use super::super::spectrum::FRAME_S;
     use super::*;
+    use soffio_math::noise::Random;
 
-    /// A noise floor, and the smallest one; power.
-    const FLOOR: f64 = 1e-4;
-    const MIN_FLOOR: f64 = 1e-8;
-
-    /// Change of a floor after a time, s, of constant power; dB.
-    fn change_db(power: f64, seconds: f64) -> f64 {
-        let mut floor = FLOOR;
-        (0..(seconds / FRAME_S).round() as usize)
-            .for_each(|_| FloorWeights::steady().update(&mut floor, power, MIN_FLOOR));
-        power_to_db(floor / FLOOR)
+    fn learn(floor: &mut Floor<1>, seconds: f64, mut level: impl FnMut() -> f64) {
+        (0..(seconds / FRAME_S) as usize).for_each(|_| floor.learn(&[level()]));
     }
 
     #[test]
-    fn any_bang_raises_it_by_nine_decibels_a_second_and_silence_lowers_it_by_eleven() {
-        for ratio in [1e2, 1e4, 1e8] {
-            let rise = change_db(ratio * FLOOR, 1.0);
-            // A power limited to four times the floor adds three floors: 10 lg (1 + 3 w↑) a frame.
-            let expected = power_to_db(1.0 + 3.0 * FloorWeights::steady().up) / FRAME_S;
-            assert!((rise - expected).abs() < 0.01 && (8.5..9.0).contains(&rise), "{rise} dB by {ratio}");
-        }
-        let fall = change_db(0.0, 1.0);
-        assert!((fall + 10.86).abs() < 0.01, "{fall} dB: 10 lg e^(−1/0.4)");
+    fn a_breath_of_five_seconds_hardly_raises_it_and_a_crowd_that_leaves_is_forgotten() {
+        let mut floor = Floor::new();
+        learn(&mut floor, 30.0, || -60.0);
+        learn(&mut floor, 5.0, || -20.0);
+        let raised = floor.level[0] + 60.0;
+        assert!((raised - 5.0 * MOST_UP_DB / UP_S).abs() < 0.05, "{raised} dB, not 0.75 dB a second");
+        learn(&mut floor, 3.0 * DOWN_S, || -60.0);
+        assert!(floor.level[0] < -59.8, "{} dB", floor.level[0]);
     }
 
     #[test]
-    fn the_first_frames_form_their_mean() {
-        let mut floor = 0.0;
-        let power = [4.0, 2.0, 3.0];
-        for (n, power) in (1..).zip(power) {
-            // A smallest floor of 4 keeps the limit from acting.
-            FloorWeights::nth(n).update(&mut floor, power, 4.0);
-        }
-        assert!((floor - 3.0).abs() < 1e-12, "{floor}");
+    fn gusts_become_usual_within_three_minutes() {
+        let (mut floor, mut random) = (Floor::new(), Random::new(4));
+        learn(&mut floor, 60.0, || -60.0);
+        let strange = |floor: &Floor<1>| 15.0 / floor.spread(0);
+        assert!(strange(&floor) > 5.0, "in a still room: {}", strange(&floor));
+        learn(&mut floor, 180.0, || if random.unit() < 0.3 { -45.0 } else { -60.0 });
+        assert!(strange(&floor) < 2.2, "in a draught: {}", strange(&floor));
     }
 }

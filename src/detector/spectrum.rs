@@ -18,7 +18,7 @@ use std::sync::Arc;
 use soffio_fourier::{Complex, Fft, forward};
 
 use super::resample::INTERNAL_RATE;
-use soffio_math::{PI, cos, ln};
+use soffio_math::{PI, cos};
 
 /// Length of a frame, internal samples (48 ms: three periods of the lowest voice).
 const WINDOW: usize = 384;
@@ -30,8 +30,6 @@ const HOP: usize = 64;
 pub const TRANSFORM: usize = 512;
 /// Bins of a power spectrum; bin k lies at k · 15.625 Hz.
 pub const BINS: usize = TRANSFORM / 2;
-/// Sum of squares below which a frame is silent.
-const SILENCE: f64 = 1e-20;
 /// Time between frames, s.
 pub const FRAME_S: f64 = HOP as f64 / INTERNAL_RATE as f64;
 
@@ -64,39 +62,12 @@ pub struct Framer {
     pub scale: f64,
     /// Samples until the reference signal has left the window.
     reference_samples: usize,
-    /// Power spectrum of the last frame: of the mean of both capsules.
+    /// Power spectrum of the last frame, mean of both capsules.
     pub microphone: Power,
     /// Power spectrum of the loudspeaker's reference signal in the last frame.
     pub reference: Power,
     /// Complex spectra of both capsules.
     pub channels: [[Complex<f64>; BINS]; 2],
-    /// Kurtosis of the last 8 ms: its logarithm relative to that of Gaussian noise.
-    pub kurtosis: f64,
-    moments: KurtosisMoments,
-}
-
-/// Moments of the second difference since the last frame. Of noise it is Gaussian; voices, creaks and rattles make it impulsive.
-#[derive(Clone, Copy, Debug, Default)]
-struct KurtosisMoments {
-    before: [f64; 2],
-    square: f64,
-    fourth: f64,
-}
-
-impl KurtosisMoments {
-    fn push(&mut self, x: f64) {
-        let difference = x - 2.0 * self.before[0] + self.before[1];
-        self.before = [x, self.before[0]];
-        let square = difference * difference;
-        self.square += square;
-        self.fourth += square * square;
-    }
-
-    /// ln(n Σd⁴ / (3 (Σd²)²)), 0 for silence; starts the next frame.
-    fn take(&mut self) -> f64 {
-        let Self { square, fourth, .. } = std::mem::replace(self, Self { before: self.before, ..Self::default() });
-        if square < SILENCE { 0.0 } else { ln(HOP as f64 * fourth / (3.0 * square * square)) }
-    }
 }
 
 impl std::fmt::Debug for Framer {
@@ -129,15 +100,12 @@ impl Framer {
             microphone: [0.0; BINS],
             reference: [0.0; BINS],
             channels: [[Complex::default(); BINS]; 2],
-            kurtosis: 0.0,
-            moments: KurtosisMoments::default(),
         }
     }
 
     /// Takes one internal sample; true where a new frame is ready.
     pub fn push(&mut self, sample: Sample) -> bool {
         self.ring[self.next] = sample;
-        self.moments.push(0.5 * (sample.left + sample.right));
         self.next = (self.next + 1) % WINDOW;
         self.reference_samples =
             if sample.reference == 0.0 { self.reference_samples.saturating_sub(1) } else { WINDOW };
@@ -146,14 +114,13 @@ impl Framer {
             return false;
         }
         self.until_frame = HOP;
-        self.kurtosis = self.moments.take();
         self.transform(|s| Complex::new(s.left, s.right));
         for k in 1..BINS {
             let (z, mirror) = (self.buffer[k], self.buffer[TRANSFORM - k].conj());
             let (left, right) = (0.5 * (z + mirror), Complex::new(0.0, -0.5) * (z - mirror));
             self.channels[0][k] = left;
             self.channels[1][k] = right;
-            self.microphone[k] = 0.25 * self.scale * (left + right).norm_sqr();
+            self.microphone[k] = 0.5 * self.scale * (left.norm_sqr() + right.norm_sqr());
         }
         if self.reference_samples > 0 {
             self.transform(|s| Complex::new(s.reference, 0.0));

@@ -104,9 +104,9 @@ impl AudioObserver {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use soffio_detector::generate::filter::{gaussian, low_passed, normalised};
     use soffio_math::noise::Random;
     use soffio_math::{exp, sin};
+    use soffio_soundscape::filters::{gaussian, low_passed, normalised};
 
     const RATE: f64 = SAMPLE_RATE_HZ as f64;
 

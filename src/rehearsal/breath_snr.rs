@@ -105,8 +105,8 @@ fn spectrum(samples: &[f64]) -> Vec<Complex<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use soffio_detector::generate::filter::white;
     use soffio_math::noise::Random;
+    use soffio_soundscape::filters::white;
 
     #[test]
     fn it_measures_a_breath_in_a_crowd_and_the_difference_of_both() {

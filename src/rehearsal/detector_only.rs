@@ -106,7 +106,7 @@ impl<'a> Segment<'a> {
                 venue.put(at, sound);
             }
             for breath in &entry.visit.breaths {
-                venue.put_breath(breath.onset, breath.sound(capsules, spacing));
+                venue.put_breath(breath.lips(), breath.sound(capsules, spacing));
             }
         }
         Self { entries, venue, from, until, breaths: Vec::new(), false_triggers_s: Vec::new() }
@@ -147,7 +147,7 @@ impl<'a> Segment<'a> {
         }
         let began_at = now - BLOCK_S;
         let mut breaths = self.entries.iter().flat_map(|entry| &entry.visit.breaths);
-        let is_response = breaths.any(|b| b.onset < began_at + EARLY_S && began_at < b.end() + AFTERMATH_S);
+        let is_response = breaths.any(|b| b.lips() < began_at + EARLY_S && began_at < b.end() + AFTERMATH_S);
         if began && !is_response && (self.from..self.until).contains(&began_at) {
             self.false_triggers_s.push(began_at);
         }

@@ -12,8 +12,9 @@ use soffio_fourier::{Complex, ComplexToReal, RealToComplex, real_forward, real_i
 use super::blocks::BLOCK;
 use super::rate::Decimator;
 use soffio_math::noise::Random;
-use soffio_math::{DVec3, PI, db_to_amplitude, exp, tanh};
+use soffio_math::{DVec3, PI, exp, tanh};
 use soffio_soundscape::RATE;
+use soffio_soundscape::microphone::pascals;
 use soffio_soundscape::rooms::Room;
 
 /// Rooms: name, size (m), mean absorption of the walls.
@@ -21,9 +22,8 @@ pub const ROOMS: [(&str, [f64; 3], f64); 3] =
     [("cabinet", [6.0, 5.0, 3.0], 0.30), ("gallery", [14.0, 9.0, 4.5], 0.20), ("hall", [25.0, 16.0, 6.0], 0.12)];
 /// Distance from loudspeaker to microphone, m: both stand at the kiosk.
 const AWAY_M: f64 = 0.6;
-/// Level of a full-scale output at the microphone, dB of full scale. A microphone that a hard breath drives to full scale receives its
-/// loudspeaker at a much lower level; this is the worst case that a site may set up.
-const COUPLING_DB: f64 = 0.0;
+/// Level of noise with an RMS of full scale at the microphone, dB of sound: the loudest that a site may set up.
+const COUPLING_DB: f64 = 104.0;
 /// Delay of sound card and system on the way out and in, blocks: 50 ms.
 const LATENCY: usize = 5;
 /// High-pass corner of a small loudspeaker, Hz.
@@ -58,7 +58,7 @@ impl EchoPath {
     pub fn new(room: &Room, capsules: usize, random: &mut Random) -> Self {
         let (at, seed) = (room.near(AWAY_M, random), random.word());
         let (forward, back) = (real_forward(2 * BLOCK), real_inverse(2 * BLOCK));
-        let gain = db_to_amplitude(COUPLING_DB) / (2 * BLOCK) as f64;
+        let gain = pascals(COUPLING_DB) / (2 * BLOCK) as f64;
         let part = |part: &[f64]| {
             let mut padded = vec![0.0; 2 * BLOCK];
             padded.iter_mut().zip(part).for_each(|(y, h)| *y = gain * h);
@@ -77,7 +77,7 @@ impl EchoPath {
         }
     }
 
-    /// Echo at each capsule during a block of output (stereo at 48 kHz): a block at 16 kHz, of the output up to [`LATENCY`] blocks ago.
+    /// Echo at each capsule during a block of output (stereo at 48 kHz), Pa: a block at 16 kHz, of the output up to [`LATENCY`] blocks ago.
     pub fn process(&mut self, played: &[f32]) -> Vec<Vec<f64>> {
         let mono = played.as_chunks::<2>().0.iter().map(|[left, right]| 0.5 * f64::from(left + right));
         let mut sound = self.decimator.convert(mono);
@@ -152,7 +152,8 @@ mod tests {
         }
         let whole = convolved(&sounds, &response);
         let delay = LATENCY * BLOCK;
-        let furthest = received[delay..].iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let furthest =
+            received[delay..].iter().zip(&whole).map(|(a, b)| (a / pascals(COUPLING_DB) - b).abs()).fold(0.0, f64::max);
         assert!(furthest < ROUNDING, "{furthest}");
         assert!(whole.iter().any(|x| x.abs() > 0.01));
     }

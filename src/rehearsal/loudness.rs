@@ -1,14 +1,21 @@
-//! Sound levels at the microphone.
+//! Sound levels at the microphone. All sound of the venue is pressure, Pa, until the capsules.
+//!
+//! ```text
+//! U = 5.85 · 9 m/s · 9 mm / 10 cm = 4.7 m/s        air of a normal breath at 10 cm (soffio_soundscape::jet)
+//! p = ρ U u' = 1.2 · 4.7 · 0.27 · 4.7 = 7 Pa       RMS of its pressure; its peaks reach 20 Pa
+//! ```
+//!
+//! A microphone is set up so that these peaks just reach full scale. A sine of full scale then has 117 dB of sound.
 
-use soffio_detector::generate::filter::power;
-use soffio_math::db_to_amplitude;
+use soffio_soundscape::filters::power;
+use soffio_soundscape::microphone::pascals;
 
-/// Sound pressure level of full scale, dB.
-const FULL_SCALE_DB: f64 = 117.0;
+/// Peak pressure of full scale, Pa.
+pub const FULL_SCALE_PA: f64 = 20.0;
 
-/// Amplitude of a sound level at the microphone, dB of sound; full scale 1.
+/// RMS of a level at the microphone, Pa, dB of sound.
 pub fn loud(db: f64) -> f64 {
-    db_to_amplitude(db - FULL_SCALE_DB)
+    pascals(db)
 }
 
 /// Scales a sound to an RMS at the first capsule, and the other capsules alike.

@@ -233,7 +233,7 @@ impl<'a> DayRun<'a> {
                 self.venue.put(at, sound);
             }
             for breath in &entry.visit.breaths {
-                self.venue.put_breath(breath.onset, breath.sound(capsules, spacing));
+                self.venue.put_breath(breath.lips(), breath.sound(capsules, spacing));
             }
             if entry.expects_response()
                 && let Some(onset) = entry.visit.onset()
@@ -314,7 +314,7 @@ impl<'a> DayRun<'a> {
             && let Some(breath) = visit.retry().filter(|breath| breath.end() + PATIENCE_S < comes)
         {
             let sound = breath.sound(self.venue.capsules(), self.venue.scenario().spacing());
-            self.venue.put_breath(breath.onset, sound);
+            self.venue.put_breath(breath.lips(), sound);
             visit.leaves = visit.leaves.max(breath.end() + PATIENCE_S);
             visit.breaths.push(breath);
         }
@@ -520,7 +520,7 @@ mod tests {
         let venue = open_venue(&mut rehearsal).expect("a room");
         let mut visit = Visit::of(Intent::Blows, 1.0, 0.0, &mut Random::new(1));
         visit.breaths.truncate(1);
-        visit.breaths[0].shape.distance = FAR_M;
+        visit.breaths[0].recipe.distance = FAR_M;
         visit.leaves = visit.breaths[0].end() + PATIENCE_S + 0.5;
         let entries = vec![Entry { visit, exhibit: 0, during: None, after: None, shuffled: 0.5 * LENGTH_S }];
         let day = Day { entries, length: LENGTH_S, ..Day::default() };

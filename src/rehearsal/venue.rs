@@ -1,13 +1,10 @@
 //! The venue at the microphone: the crowd of the day, the air, visitors in front of the kiosk, and the kiosk's own echo.
 //!
-//! Time advances in blocks of 10 ms, as with a sound card. All sounds are summed; last comes the microphone: its high-pass corner, its
-//! noise and clipping.
+//! Time advances in blocks of 10 ms, as with a sound card. All sounds are summed as pressure, Pa. Last comes the microphone: its
+//! high-pass corner, its noise and clipping.
 //!
-//! The ratio of the crowd's level to a breath follows from physics. The breath of [`generate`](soffio_detector::generate) at 8.9 m/s
-//! strikes a capsule 30 cm away at −23 dB of full scale. A round jet from lips a centimetre wide has 6 · 8.9 m/s · 1/30 =
-//! 1.8 m/s left there (Pope, Turbulent Flows, 2000, section 5.1), and a quarter of that fluctuates: ρ U u′ = 1 Pa, 94 dB. So
-//! full scale is 117 dB of sound, and a museum of 57 dB(A) (Carvalho et al. 2016, measured in Santo Tirso) lies 60 dB
-//! below it.
+//! The ratio of the crowd's level to a breath follows from physics: both are in pascals ([`super::loudness`]). A museum of 57 dB(A)
+//! (Carvalho et al. 2016, measured in Santo Tirso) lies 60 dB below full scale.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -16,15 +13,16 @@ use super::blocks::BLOCK;
 use super::breath_snr::{BreathSnr, SnrMeter};
 use super::day::occupancy;
 use super::echo_path::EchoPath;
-use super::loudness::{loud, scaled};
+use super::loudness::{FULL_SCALE_PA, loud, scaled};
 use super::rate::Interpolator;
-use soffio_detector::generate::filter::{parted, white};
 use soffio_math::noise::{Random, hash_words};
 use soffio_math::{PI, db_to_amplitude, exp};
 use soffio_offline::wav::Recording;
+use soffio_soundscape::RATE;
+use soffio_soundscape::filters::{parted, white};
+use soffio_soundscape::microphone::{UNLIKE, resampled};
 use soffio_soundscape::rooms::ALIKE_HZ;
-use soffio_soundscape::scenes::{Scenario, UNLIKE, resampled};
-use soffio_soundscape::{RATE, noises};
+use soffio_soundscape::scenes::Scenario;
 
 const R: f64 = RATE as f64;
 /// Length of a piece of the crowd, s.
@@ -37,10 +35,10 @@ const SHORTEST_S: f64 = 3.0 * FADE_S;
 const CROWD_DB: (f64, f64) = (48.0, 18.0);
 /// Largest variation of the level from minute to minute, dB.
 const MINUTE_DB: f64 = 4.0;
-/// Ventilation and street, from a quiet venue to a busy one, dB of full scale.
-const AIR_DBFS: (f64, f64) = (-62.0, -50.0);
-/// Noise of the microphone, dB of full scale.
-const HISS_DBFS: f64 = -76.0;
+/// Ventilation and street, from a quiet venue to a busy one, dB of sound.
+const AIR_DB: (f64, f64) = (48.0, 60.0);
+/// Noise of the microphone, dB of sound.
+const HISS_DB: f64 = 34.0;
 /// High-pass corners of a bare capsule, a gooseneck on a sound card, and a cheap microphone, Hz.
 const CORNERS_HZ: [f64; 3] = [20.0, 60.0, 80.0];
 
@@ -48,7 +46,7 @@ const CORNERS_HZ: [f64; 3] = [20.0, 60.0, 80.0];
 pub enum Crowd {
     /// Synthetic, from the day's seed.
     Made,
-    /// Recordings at 16 kHz, one after another, repeated.
+    /// Recordings at 16 kHz, Pa, one after another, repeated.
     Recorded(Vec<Vec<f64>>),
 }
 
@@ -58,7 +56,10 @@ pub enum Crowd {
 /// No recording is long enough.
 pub fn recorded(recordings: &[Recording]) -> Result<Crowd, String> {
     let long = recordings.iter().filter(|recording| recording.duration() >= SHORTEST_S);
-    let sounds: Vec<_> = long.map(|recording| resampled(&recording.samples, recording.sample_rate)).collect();
+    let sounds: Vec<Vec<f64>> = long
+        .map(|recording| resampled(&recording.samples, recording.sample_rate, RATE))
+        .map(|sound| sound.iter().map(|x| FULL_SCALE_PA * f64::from(*x)).collect())
+        .collect();
     if sounds.is_empty() {
         return Err(format!("it has no WAV of {SHORTEST_S} s or more; record your gallery for some minutes"));
     }
@@ -141,7 +142,7 @@ impl Venue {
         self.capsules.len()
     }
 
-    /// Adds a sound at a time of the day, s; full scale ±1 at 16 kHz, one channel per capsule.
+    /// Adds a sound at a time of the day, s; Pa at 16 kHz, one channel per capsule.
     pub fn put(&mut self, at: f64, sound: Vec<Vec<f64>>) {
         self.sounds.push(Sound { start: Self::sample_at(at), channels: sound, is_breath: false });
     }
@@ -203,11 +204,12 @@ impl Venue {
         let mut piece = match &*self.crowd {
             Crowd::Made => {
                 let level = CROWD_DB.0 + CROWD_DB.1 * occupancy + random.range(-MINUTE_DB, MINUTE_DB);
-                let crowd = scaled(self.scenario.crowd(PIECE_S + FADE_S, occupancy, count, &mut random), loud(level));
-                let level = db_to_amplitude(AIR_DBFS.0 + (AIR_DBFS.1 - AIR_DBFS.0) * (0.5 * occupancy).min(1.0));
-                let air = noises::air(PIECE_S + FADE_S, &mut random);
-                let both = diffuse(air, count).into_iter().zip(crowd);
-                both.map(|(air, crowd)| crowd.iter().zip(&air).map(|(y, x)| y + level * x).collect()).collect()
+                let (crowd, _) = self.scenario.crowd(PIECE_S + FADE_S, occupancy, count, &mut random);
+                let crowd = scaled(crowd, loud(level));
+                let level = AIR_DB.0 + (AIR_DB.1 - AIR_DB.0) * (0.5 * occupancy).min(1.0);
+                let air = self.scenario.air_noise(PIECE_S + FADE_S, level, count, &mut random);
+                let both = air.iter().zip(crowd);
+                both.map(|(air, crowd)| crowd.iter().zip(air).map(|(y, x)| y + x).collect()).collect()
             }
             Crowd::Recorded(recordings) => {
                 diffuse(recordings[(self.pieces % recordings.len() as u64) as usize].clone(), count)
@@ -272,14 +274,14 @@ impl Capsule {
 
     fn record(&mut self, air: &[f64]) -> Vec<f32> {
         let hiss = white(air.len(), &mut self.random);
-        let (keep, gain, low) = (self.keep, self.gain, &mut self.low);
+        let (keep, gain, noise, low) = (self.keep, self.gain / FULL_SCALE_PA, loud(HISS_DB), &mut self.low);
         let received = air.iter().zip(&hiss).map(|(x, n)| {
             let mut y = *x;
             for low in low.iter_mut() {
                 *low = y + keep * (*low - y);
                 y -= *low;
             }
-            gain * y + db_to_amplitude(HISS_DBFS) * n
+            gain * (y + noise * n)
         });
         self.interpolator.convert(received).into_iter().map(|x| x.clamp(-1.0, 1.0) as f32).collect()
     }

@@ -1,16 +1,16 @@
 //! Synthetic visitors: their intents, breaths, presses and sounds, drawn from a seed.
 //!
 //! Distances, angles and strengths are those of people in front of a microphone on a gooseneck. A child blows 3.6 to 10.5 m/s, an
-//! adult 6 to 17 m/s, soft as often as hard. Most blow at the microphone, some off its axis.
+//! adult 6 to 17 m/s, soft as often as hard. Most blow at the microphone, some past it: a jet has half of its speed 5 degrees off
+//! its axis, and next to none at 12.
 
 use std::ops::Range;
 
 use super::loudness::{loud, scaled};
-use soffio_detector::generate::filter::peaked;
-use soffio_detector::generate::{self, BreathShape};
 use soffio_math::noise::{Random, hash_words};
-use soffio_math::{db_to_amplitude, pow};
-use soffio_soundscape::scenes::{Lips, Scenario};
+use soffio_soundscape::breath::{Breath as Recipe, Manner, Person};
+use soffio_soundscape::filters::peaked;
+use soffio_soundscape::scenes::Scenario;
 use soffio_soundscape::{RATE, noises, voices};
 
 /// Distance from lips to microphone, m.
@@ -20,15 +20,11 @@ const NEAR_M: f64 = 0.18;
 /// Largest middle distance, m.
 const FAR_M: f64 = 0.30;
 /// Largest angle of a straight breath, degrees.
-const STRAIGHT_DEG: f64 = 12.0;
+const STRAIGHT_DEG: f64 = 3.0;
 /// Largest angle of a breath aside, degrees.
-const ASIDE_DEG: f64 = 30.0;
+const ASIDE_DEG: f64 = 6.0;
 /// Largest angle of all, degrees.
-const WIDEST_DEG: f64 = 60.0;
-/// Speed at a child's lips from soft to hard, m/s.
-const CHILD_M_S: (f64, f64) = (3.6, 10.5);
-/// Speed at an adult's lips from soft to hard, m/s.
-const ADULT_M_S: (f64, f64) = (6.0, 17.0);
+const WIDEST_DEG: f64 = 9.0;
 /// Largest gentle speed, m/s.
 const NORMAL_M_S: f64 = 6.5;
 /// Largest normal speed, m/s.
@@ -43,6 +39,9 @@ const SHOUT_DB: (f64, f64) = (82.0, 98.0);
 const LAUGHTER_DB: (f64, f64) = (70.0, 88.0);
 /// Level of steps on a floor, dB of sound.
 const STEPS_DB: (f64, f64) = (45.0, 65.0);
+
+/// Peak level of a hand on the glass, dB of sound.
+const HAND_DB: (f64, f64) = (75.0, 97.0);
 
 /// Pause between two breaths of a visitor, s.
 const BREATH_PAUSE_S: (f64, f64) = (1.5, 4.0);
@@ -84,58 +83,65 @@ const INTENT_PROBABILITY: [(Intent, f64); 7] = [
 pub struct Breath {
     /// Arrival of the first air at the microphone, s of the day.
     pub onset: f64,
-    /// Shape, without quiet before or after.
-    pub shape: BreathShape,
-    lips: Lips,
+    /// How it is blown, without quiet before.
+    pub recipe: Recipe,
+    /// From the first flow at the lips to the arrival of the air, s.
+    travel: f64,
+    /// From the arrival to the last air, s.
+    length: f64,
     seed: u64,
 }
 
 impl Breath {
     fn new(onset: f64, child: bool, random: &mut Random) -> Self {
-        let (soft, hard) = if child { CHILD_M_S } else { ADULT_M_S };
+        let person = if child { Person::Child } else { Person::Adult };
+        let manner = match random.unit() {
+            x if x < 0.75 => Manner::Plain,
+            x if x < 0.85 => Manner::Puff,
+            x if x < 0.95 => Manner::Pfff,
+            _ => Manner::Whoo,
+        };
         let angle_deg = match random.unit() {
             x if x < 0.6 => random.range(0.0, STRAIGHT_DEG),
             x if x < 0.88 => random.range(STRAIGHT_DEG, ASIDE_DEG),
             _ => random.range(ASIDE_DEG, WIDEST_DEG),
         };
-        let shape = BreathShape {
-            lead_in: 0.0,
-            strength: soft * pow(hard / soft, random.unit()),
-            attack: random.range(0.04, 0.22),
-            hold: random.range(0.5, 2.5),
-            release: random.range(0.08, 0.45),
-            lead_out: 0.0,
-            distance: DISTANCE_M.0 * pow(DISTANCE_M.1 / DISTANCE_M.0, random.unit()),
-            angle_deg,
-            foam_db: random.range(0.0, 6.0),
-            colour: pow(2.0, random.range(-0.8, 1.4)),
-            // The corner of the microphone is applied later.
-            corner_hz: 5.0,
-            ..BreathShape::default()
-        };
-        let lips = Lips::random(angle_deg, random);
-        let seed = random.word();
-        let azimuth_deg = Random::new(hash_words(&[seed, 0x7061_7374])).range(0.0, 360.0);
-        Self { onset, shape: BreathShape { azimuth_deg, ..shape }, lips, seed }
+        let drawn = Recipe::random(manner, person, DISTANCE_M, random);
+        let azimuth_deg = random.range(0.0, 360.0);
+        Self::of(onset, Recipe { angle_deg, azimuth_deg, ..drawn }, random.word())
+    }
+
+    /// A recipe whose air arrives at a time, s of the day.
+    fn of(onset: f64, recipe: Recipe, seed: u64) -> Self {
+        let label = recipe.label(0.0, &recipe.speeds(seed));
+        Self { onset, recipe, travel: label.arrival, length: label.end - label.arrival, seed }
     }
 
     /// Another breath of the same visitor, a little softer or harder.
     fn again(&self, onset: f64, random: &mut Random) -> Self {
-        let strength = (self.shape.strength * random.range(0.7, 1.3)).clamp(CHILD_M_S.0, ADULT_M_S.1);
-        let shape = BreathShape { strength, hold: random.range(0.5, 2.5), ..self.shape };
-        Self { onset, shape, seed: random.word(), ..*self }
+        let (soft, hard) = (Person::Child.speeds().0, Person::Adult.speeds().1);
+        let speed = (self.recipe.speed * random.range(0.7, 1.3)).clamp(soft, hard);
+        let recipe = Recipe { speed, hold: random.range(0.5, 2.5), ..self.recipe };
+        Self::of(onset, recipe, random.word())
     }
 
-    /// End of the breath, s of the day.
+    /// Beginning of the flow at the lips, s of the day.
+    pub fn lips(&self) -> f64 {
+        self.onset - self.travel
+    }
+
+    /// End of the air at the microphone, s of the day.
     pub fn end(&self) -> f64 {
-        self.onset + self.shape.duration()
+        self.onset + self.length
     }
 
-    /// Sound at each of 1 or 2 capsules with this spacing, m; full scale ±1 at 16 kHz.
+    /// Sound at each of 1 or 2 capsules with this spacing, m, from [`Breath::lips`] on; Pa at 16 kHz.
     pub fn sound(&self, capsules: usize, spacing: f64) -> Vec<Vec<f64>> {
-        let shape = BreathShape { spacing: if capsules > 1 { spacing } else { 0.0 }, ..self.shape };
-        let at = |capsule| self.lips.filtered(generate::stream(RATE, self.seed, &shape, capsule as u64));
-        (0..capsules).map(at).collect()
+        // The visitor stands in front of one of both capsules.
+        let spacing = if capsules > 1 { spacing } else { 0.0 };
+        let beside = if self.seed % 2 == 0 { 0.5 } else { -0.5 } * spacing;
+        let recipe = Recipe { spacing, beside, ..self.recipe };
+        recipe.air(RATE, self.seed).pressure
     }
 }
 
@@ -283,9 +289,9 @@ impl Visit {
         })
     }
 
-    /// Times of each action, s of the day.
+    /// Times of each action, s of the day; those of a breath begin at the lips, which can be heard.
     pub fn action_times(&self) -> impl Iterator<Item = Range<f64>> + '_ {
-        let breaths = self.breaths.iter().map(|breath| breath.onset..breath.end());
+        let breaths = self.breaths.iter().map(|breath| breath.lips()..breath.end());
         breaths.chain(self.presses.iter().map(|pressed| pressed.from..pressed.until))
     }
 
@@ -301,19 +307,19 @@ impl Visit {
             Intent::WalksAway => "walks away",
         }];
         if let Some(breath) = self.breaths.first() {
-            let shape = &breath.shape;
+            let recipe = &breath.recipe;
             groups.push(if self.child { "children" } else { "adults" });
-            groups.push(match shape.distance {
+            groups.push(match recipe.distance {
                 d if d < NEAR_M => "near (10-18 cm)",
                 d if d < FAR_M => "middle (18-30 cm)",
                 _ => "far (30-45 cm)",
             });
-            groups.push(match shape.angle_deg {
-                a if a < STRAIGHT_DEG => "straight (0-12°)",
-                a if a < ASIDE_DEG => "aside (12-30°)",
-                _ => "far aside (30-60°)",
+            groups.push(match recipe.angle_deg {
+                a if a < STRAIGHT_DEG => "straight (0-3°)",
+                a if a < ASIDE_DEG => "aside (3-6°)",
+                _ => "far aside (6-9°)",
             });
-            groups.push(match shape.strength {
+            groups.push(match recipe.speed {
                 s if s < NORMAL_M_S => "gentle (< 6.5 m/s)",
                 s if s < STRONG_M_S => "normal",
                 _ => "strong (> 11 m/s)",
@@ -355,7 +361,7 @@ impl Visit {
         }
         // A hand on the glass reaches the microphone through the table, not through the room.
         for pressed in self.presses.iter().filter(|pressed| pressed.press != Press::Key) {
-            let gain = db_to_amplitude(random.range(-44.0, -22.0));
+            let gain = loud(random.range(HAND_DB.0, HAND_DB.1));
             let hand: Vec<f64> = peaked(noises::handling(random)).into_iter().map(|x| gain * x).collect();
             out.push((pressed.from, vec![hand; capsules]));
         }

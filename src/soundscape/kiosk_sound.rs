@@ -1,8 +1,8 @@
 //! Synthesis of the kiosk's own sound: its wind, its chimes and its speech, and the response of its loudspeaker.
 
+use super::RATE;
 use super::voices::{add, decaying};
-use super::{Breath, RATE};
-use soffio_detector::generate::filter::{high_passed, low_passed, normalised, white};
+use crate::filters::{high_passed, low_passed, normalised, white};
 use soffio_math::noise::{Random, perlin1};
 use soffio_math::{PI, pow, sin, tanh};
 
@@ -31,23 +31,6 @@ impl Wind {
             out[i] += level * (0.6 * self.low[i] + 0.6 * self.high[i]);
         }
     }
-}
-
-/// The kiosk's response to breaths: its wind, a little later than each, and impacts of the moving parts. In half of all cases it
-/// has been sounding before.
-pub fn answers(seconds: f64, breaths: &[Breath], random: &mut Random) -> Vec<f64> {
-    let mut out = vec![0.0; (seconds * R) as usize];
-    let wind = Wind::new(out.len(), random);
-    let force = (random.range(0.05, 0.45), random.range(0.05, 0.4));
-    for breath in breaths {
-        let at = breath.onset + random.range(0.08, 0.25);
-        let length = (breath.offset - at).max(0.1) + random.range(0.1, 0.6);
-        wind.blow(&mut out, at, length, force, random);
-    }
-    let onset = breaths.first().map_or(0.0, |b| b.onset);
-    let from = if random.unit() < 0.5 { random.range(0.0, onset) } else { onset + random.range(0.1, 0.7) };
-    strikes(&mut out, from, random);
-    out.into_iter().map(|x| x.clamp(-1.0, 1.0)).collect()
 }
 
 /// The kiosk at full volume: gusts of wind sound, strikes of plates and tubes, sentences of `speech`. Full scale ±1.

@@ -1,73 +1,90 @@
-//! Synthetic soundscapes: labelled sounds that train and validate the blow detector. Nothing here runs in the kiosk.
+//! Synthetic sounds of breaths, draughts and museums at a microphone, with labels. They examine the breath detector and fill the
+//! rehearsed day.
 //!
 //! ```text
-//! voices noises kiosk_sound → scenes (rooms) ┐
-//!                            recordings ─────┴→ Take → train → src/detector/table.rs
-//!                                                    → score → table with 95 % bounds
+//! jet → eddies ─┐
+//! lips ─────────┴→ breath ──────────┐
+//! eddies → draught ─────────────────┼→ scenes::Stage (Pa) → microphone → Take
+//! voices noises → rooms → Scenario ─┤
+//! kiosk_sound → rooms ──────────────┘
 //! ```
 //!
-//! A [`Take`] is a sound with its labels: the time and strength of each breath, and the other sounds. A [`scenes::Scenario`] draws
-//! takes from a seed: voices, noises, rooms, one or two capsules, the kiosk's own sound. Scenarios with seeds from
-//! [`FIRST_VALIDATION_SEED`] on are never used for training, so they can validate.
+//! All sound is pressure in pascals until the microphone. A breath is a jet whose eddies pass the capsules ([`breath`]). A
+//! [`scenes::Scenario`] draws voices and rooms from a seed. A [`scenes::Stage`] adds breaths to a room, and each microphone makes a
+//! [`Take`] of it.
 //!
 //! It never reads a file, a device or a clock, and never runs in the kiosk. The same seed gives the same samples.
 //!
 //! ```
-//! use soffio_soundscape::scenes::{Condition, Hearing, Scenario};
-//! use soffio_soundscape::{FIRST_VALIDATION_SEED, Kind};
+//! use soffio_soundscape::breath::Breath;
 //!
-//! let one = Hearing { gain_db: 0.0, stereo: false };
-//! // A child's breath, straight at the microphone, from 10 cm.
-//! let take = Scenario::new(FIRST_VALIDATION_SEED + 1).take(Condition::Cell(0.1, 0.0, true), 0, one);
-//! assert_eq!(take.kind, Kind::Blow);
-//! assert!(take.breaths.iter().all(|breath| breath.onset < breath.offset));
-//! assert!(take.left.iter().all(|x| x.abs() <= 1.0));
-//! assert!(take.right.is_none(), "one capsule");
+//! let breath = Breath { speed: 9.0, distance: 0.2, ..Breath::default() };
+//! let samples = breath.recorded(16_000, 1);
+//! assert!(samples.iter().all(|x| x.abs() <= 1.0));
+//!
+//! let label = breath.label(0.0, &breath.speeds(1));
+//! assert!(label.lips < label.arrival && label.arrival < label.end);
+//! assert!(label.peak_speed < 9.0, "the jet slows down: {} m/s", label.peak_speed);
 //! ```
 
+pub mod breath;
+pub mod draught;
+pub mod eddies;
+pub mod filters;
+pub mod jet;
 pub mod kiosk_sound;
+pub mod level;
+pub mod lips;
+pub mod microphone;
 pub mod noises;
 pub mod parallel;
+mod people;
 pub mod rooms;
 pub mod scenes;
 pub mod statistics;
+pub mod test_sounds;
 pub mod voices;
 
-/// First seed of the scenarios that are reserved for validation: they are never used for training.
+use people::Manner;
+
+/// First seed of the scenarios of rehearsals.
 pub const FIRST_VALIDATION_SEED: u64 = 1_000_000;
 
-/// Sample rate of all synthetic sound, Hz.
+/// Sample rate of scenes, Hz.
 pub const RATE: u32 = 16_000;
 
-/// Class of a take, for its score.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// A breath.
-    Blow,
-    /// Noise without breath.
-    Noise,
-    /// Knocks, claps, pops, doors: they must never trigger.
-    Impulse,
-    /// Neither is known.
-    Ambiguous,
+/// Label of one breath in a take.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BreathLabel {
+    /// Manner.
+    pub manner: Manner,
+    /// Beginning of the flow at the lips, s.
+    pub lips: f64,
+    /// First time with a mean speed of 0.35 m/s at a capsule (half of the peak, for a weaker breath), s.
+    pub arrival: f64,
+    /// Last time with that speed, s.
+    pub end: f64,
+    /// Distance from the lips to the capsules, m.
+    pub distance: f64,
+    /// Peak of the mean speed at a capsule, m/s.
+    pub peak_speed: f64,
+    /// Level over the room in the best octave band from 31 to 3400 Hz after the high-pass, from arrival to end, dB.
+    pub level_db: f64,
+    /// Mean speed at the capsule with the faster air, m/s, one value a millisecond.
+    pub speeds: Vec<f64>,
+    /// Time of the first of these values, s.
+    pub speeds_from: f64,
 }
 
-/// One breath in a take.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Breath {
-    /// Beginning of the air, s.
-    pub onset: f64,
-    /// End of the air, s.
-    pub offset: f64,
-    /// Peak speed at the lips, m/s; 0 where it is unknown.
-    pub strength: f64,
-    /// Level over a noise that was mixed in, dB.
-    pub snr_db: Option<f64>,
-    /// It hardly rises above the noise anywhere, so it cannot be detected.
-    pub faint: bool,
+impl BreathLabel {
+    /// Mean speed at a time, s: m/s.
+    pub fn speed_at(&self, time: f64) -> f64 {
+        let step = ((time - self.speeds_from) * jet::STEPS_A_SECOND).round();
+        if step < 0.0 { 0.0 } else { self.speeds.get(step as usize).copied().unwrap_or(0.0) }
+    }
 }
 
-/// A sound in a synthetic scene, before any room.
+/// A sound in a scene, before any room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
     /// Beginning, s.
@@ -76,34 +93,20 @@ pub struct Event {
     pub until: f64,
     /// Kind of sound, in words.
     pub what: &'static str,
-    /// It reaches the microphone through the table, not through the room.
-    pub on_table: bool,
-    /// RMS or peak, relative to full scale.
-    pub gain: f64,
 }
 
 /// A labelled sound.
 #[derive(Clone, Debug)]
 pub struct Take {
-    /// Name of the file or scene.
-    pub name: String,
-    /// Group: takes of one group share a speaker, a room or a recording. Training and validation never share a group.
-    pub group: String,
-    /// Label, in a word.
-    pub label: String,
-    /// Class of the take, for its score.
-    pub kind: Kind,
     /// Breaths in the take.
-    pub breaths: Vec<Breath>,
-    /// Position on a ladder of intensities.
-    pub level: Option<f64>,
+    pub breaths: Vec<BreathLabel>,
     /// The (first) capsule, full scale ±1.
     pub left: Vec<f32>,
     /// The second capsule.
     pub right: Option<Vec<f32>>,
     /// Output of the kiosk's loudspeaker over the same time; empty without any.
     pub played: Vec<f32>,
-    /// Other sounds of a synthetic scene.
+    /// Other sounds of the scene.
     pub events: Vec<Event>,
     /// Sample rate, Hz.
     pub sample_rate: u32,
@@ -115,10 +118,15 @@ impl Take {
         self.left.len() as f64 / f64::from(self.sample_rate)
     }
 
-    /// The same take with another gain, dB, clipped at full scale.
-    pub fn with_gain(&self, db: f64) -> Self {
-        let gain = soffio_math::db_to_amplitude(db) as f32;
-        let scaled = |samples: &Vec<f32>| samples.iter().map(|x| (x * gain).clamp(-1.0, 1.0)).collect();
-        Self { left: scaled(&self.left), right: self.right.as_ref().map(scaled), ..self.clone() }
+    /// The same take at another sample rate, Hz.
+    pub fn at_rate(&self, rate: u32) -> Self {
+        let convert = |samples: &Vec<f32>| microphone::resampled(samples, self.sample_rate, rate);
+        Self {
+            left: convert(&self.left),
+            right: self.right.as_ref().map(convert),
+            played: convert(&self.played),
+            sample_rate: rate,
+            ..self.clone()
+        }
     }
 }

@@ -1,11 +1,11 @@
 //! Synthesis of museum noises other than people: air, steps, doors, wheels, trains, weather, machines, music.
 //!
 //! Each sound is dry (the room comes later). Sustained sounds have unit RMS, events a unit peak. All are models with random parameters
-//! within wide bounds, so that training does not learn a single door.
+//! within wide bounds, so that no detector learns a single door.
 
 use super::RATE;
 use super::voices::{add, decaying, shaped};
-use soffio_detector::generate::filter::{high_passed, low_passed, normalised, peaked, resonance, white};
+use crate::filters::{high_passed, low_passed, normalised, peaked, resonance, white};
 use soffio_math::noise::{Random, perlin1};
 use soffio_math::{PI, cos, exp, pow, sin};
 
@@ -199,6 +199,23 @@ pub fn machine(seconds: f64, random: &mut Random) -> Vec<f64> {
     let out = high_passed(out, R, 25.0, 1);
     let start = random.range(0.02, 1.5) / seconds;
     normalised(shaped(out, start.min(0.5), random.range(0.05, 0.3)))
+}
+
+/// A vacuum cleaner or a hand dryer: a whistling motor and much air, that starts and stops.
+pub fn blower(seconds: f64, random: &mut Random) -> Vec<f64> {
+    let hiss = low_passed(high_passed(white(samples(seconds), random), R, random.range(80.0, 400.0), 1), R, 3500.0, 1);
+    let rumble = low_passed(white(hiss.len(), random), R, random.range(60.0, 200.0), 2);
+    let (f, whistle, low) = (random.range(180.0, 700.0), random.range(0.05, 0.6), random.range(0.0, 0.6));
+    let mut angle = 0.0;
+    let start = random.range(0.2, 1.2);
+    let parts = normalised(hiss).into_iter().zip(normalised(rumble)).enumerate();
+    let sound = parts.map(|(i, (h, l))| {
+        let speed = (i as f64 / R / start).min(1.0);
+        angle += 2.0 * PI * f * speed / R;
+        let square = speed * speed;
+        square * (h + low * l + whistle * (sin(angle) + 0.5 * sin(3.0 * angle)))
+    });
+    normalised(shaped(sound.collect(), 0.01, 0.1))
 }
 
 /// Music from another room or a phone: chords, a bass, a drum.

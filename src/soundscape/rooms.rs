@@ -10,7 +10,7 @@
 
 use soffio_fourier::Complex;
 
-use soffio_detector::generate::filter;
+use crate::filters as filter;
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, PI, exp};
 

@@ -3,8 +3,8 @@
 //!
 //! Every sound has unit RMS while it lasts.
 
-use soffio_detector::generate::filter::{high_passed, low_passed, normalised, peaked, resonance, white};
-use soffio_math::noise::{Random, hash_words};
+use crate::filters::{high_passed, low_passed, normalised, resonance, white};
+use soffio_math::noise::Random;
 use soffio_math::{PI, exp, sin};
 
 use super::RATE;
@@ -81,6 +81,13 @@ fn consonant(out: &mut [f64], at: f64, random: &mut Random) -> f64 {
     let loud = random.range(0.05, 0.35);
     add(out, at, &shaped(noise, 0.2, 0.3), loud);
     length + random.range(0.0, 0.04)
+}
+
+/// One vowel of a voice, at its pitch.
+pub fn vowel_of(voice: &Voice, seconds: f64, random: &mut Random) -> Vec<f64> {
+    let mut out = vec![0.0; (seconds * R) as usize];
+    vowel(&mut out, 0.0, seconds, voice.pitch_hz, voice, random);
+    normalised(out)
 }
 
 fn vowel(out: &mut [f64], at: f64, length: f64, pitch: f64, voice: &Voice, random: &mut Random) {
@@ -171,25 +178,6 @@ pub fn tone(seconds: f64, random: &mut Random) -> Vec<f64> {
     });
     let (rise, fall) = (random.range(0.02, 0.4), random.range(0.05, 0.5));
     normalised(shaped(sound.collect(), rise, fall))
-}
-
-/// Plosive puffs (p and b) of a speaker at the microphone, with peaks of 1, at each of two capsules: uncorrelated turbulence.
-pub fn plosives(seconds: f64, random: &mut Random) -> [Vec<f64>; 2] {
-    let mut out = [0, 1].map(|_| vec![0.0; (seconds * R) as usize]);
-    let mut at = random.range(0.1, 0.6);
-    while at < seconds {
-        let length = random.range(0.02, 0.08);
-        let first = white((4.0 * length * R) as usize, random);
-        let second = white(first.len(), &mut Random::new(hash_words(&[first[0].to_bits(), 2])));
-        let (corner, loud) = (random.range(60.0, 140.0), random.range(0.3, 1.0));
-        for (out, eddies) in out.iter_mut().zip([first, second]) {
-            let puff = low_passed(eddies, R, corner, 2);
-            let puff = shaped(puff[3 * puff.len() / 4..].to_vec(), 0.5, 0.5);
-            add(out, at, &peaked(puff), loud);
-        }
-        at += random.range(0.2, 1.2);
-    }
-    out.map(peaked)
 }
 
 /// Fades in and out over shares of the length (sin²).

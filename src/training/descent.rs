@@ -1,280 +1,195 @@
-//! Stochastic gradient descent on the frame networks: logistic loss and Adam (Kingma and Ba 2015). The order of operations is fixed,
-//! so the same data give the same table to the bit.
+//! Training by stochastic gradient descent with Adam (Kingma and Ba, ICLR 2015), the same bits on any number of processors.
 //!
-//! ```text
-//! loss = Σ w (−y ln p − (1 − y) ln(1 − p)) + r |θ|²,    p = 1 / (1 + e^−ℓ)
-//! ```
-//!
-//! Examples come from the detector's own run over a take, so that the noise floor, which its decisions freeze, is the same in
-//! training as in the gallery (dataset aggregation; Ross, Gordon and Bagnell 2011). Only frames above the noise floor count, as
-//! the others are decided without the network. Frames at the edges of a breath are left out.
-//!
-//! Weights follow the cost of an error: noise by its progress towards a false positive, breath while it is not detected yet. Of
-//! frames that the detector classifies correctly and surely, one in eight is kept with eight times the weight.
+//! Scenes are laid end to end on [`LANES`] lanes, in an order that each epoch shuffles. A step takes the next second of every lane,
+//! carries the recurrent state on, and ends the backpropagation there. Lanes are summed in pairs of a fixed order, so the number of threads does not
+//! matter.
 
-use std::sync::Arc;
+use super::gradient::{Example, add_gradient};
+use super::parallel::parallel;
+use soffio_detector::features::COUNT;
+use soffio_detector::network::{CELLS, Network, State};
+use soffio_math::noise::{Random, hash_words};
+use soffio_math::{PI, cos, pow};
 
-use soffio_detector::model::Network;
-use soffio_detector::{BlowDetector, BlowSettings, FrameReport, dual_mic_model, features};
-use soffio_math::noise::Random;
-use soffio_math::{PI, cos, exp};
-use soffio_soundscape::{Kind, Take};
+/// Scenes side by side.
+const LANES: usize = 32;
+/// Lanes that one task sums.
+const LANES_PER_TASK: usize = 8;
+/// Frames of a step: one second.
+const RUN: usize = 125;
+/// Largest rate of learning, at the start; it falls to 0 with half a cosine (Loshchilov and Hutter, ICLR 2017).
+const RATE: f64 = 3e-3;
+/// Steps in which the rate rises from 0.
+const WARM_UP: f64 = 200.0;
+/// Adam's forgetting factors of the mean and of the square of the gradient, as in its paper, and the term that keeps it finite.
+const FORGETTING: [f64; 2] = [0.9, 0.999];
+const EPSILON: f32 = 1e-8;
+/// Largest norm of a step's gradient: longer ones are shortened (Pascanu, Mikolov and Bengio, ICML 2013).
+const LONGEST: f64 = 1.0;
+/// Deviation of the first weights relative to 1/√inputs.
+const FIRST_WEIGHTS: f64 = 0.7;
 
-/// Weight of a frame of noise.
-const NOISE_WEIGHT: f32 = 1.5;
-/// Additional weight of a frame of noise at full progress towards a false positive.
-const FALSE_POSITIVE_WEIGHT: f32 = 5.0;
-/// Factor on that weight for sounds that must never trigger.
-const NEVER: f32 = 3.0;
-/// Weight of a frame of a breath that is not detected yet.
-const MISSED_WEIGHT: f32 = 3.0;
-/// Weight of a frame in the first [`EARLY_S`] of a breath.
-const EARLY_WEIGHT: f32 = 5.0;
-/// Time in which a breath should be detected, s.
-const EARLY_S: f64 = 0.15;
-/// Time after the end of a breath in which it may still sound, s.
-const TAIL_S: f64 = 0.25;
-/// Log-odds from which a correct frame is sure, nats.
-const SURE: f64 = 4.0;
-/// One in this many sure frames is kept.
-const SPARED: u64 = 8;
-/// Factor on the learning rate of a network that was trained before.
-const REVISION: f64 = 0.4;
-/// Frames of a mini-batch.
-const MINI_BATCH: usize = 64;
-/// Initial learning rate.
-const RATE: f64 = 2e-3;
-/// L2 penalty on the weights, per step.
-const RIDGE: f64 = 1e-5;
-/// Amplitude of the noise on standardised features, against overfitting. It acts as a penalty on the slope of ℓ (Bishop, "Training
-/// with Noise is Equivalent to Tikhonov Regularization", 1995).
-const JITTER: f64 = 0.2;
-
-/// One training example: a frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Example<const IN: usize> {
-    /// Inputs of the network.
-    pub inputs: [f32; IN],
-    /// The frame is breath.
-    pub breath: bool,
-    /// Weight in the loss.
-    pub weight: f32,
-}
-
-/// One of the detector's networks, as training handles it.
-#[derive(Clone, Copy, Debug)]
-pub struct NetworkSpec<const IN: usize, const FIRST: usize, const SECOND: usize> {
-    /// Takes have two capsules.
-    pub stereo: bool,
-    /// Inputs of a frame; `None` where the network is not used.
-    pub inputs: fn(&FrameReport<'_>) -> Option<[f64; IN]>,
-    /// The network in a detector's settings.
-    pub get: fn(&BlowSettings) -> &Network<IN, FIRST, SECOND>,
-    /// Sets the network in a detector's settings.
-    pub set: fn(&mut BlowSettings, Network<IN, FIRST, SECOND>),
-    /// Name in messages.
-    pub title: &'static str,
-    /// Module of the network's type in `soffio-detector`.
-    pub module: &'static str,
-    /// Type of the network.
-    pub type_name: &'static str,
-    /// Name of an input.
-    pub input: fn(usize) -> String,
-}
-
-/// Network of one spectrum.
-pub const SINGLE_MIC: NetworkSpec<{ features::COUNT }, 64, 24> = NetworkSpec {
-    stereo: false,
-    inputs: |report| Some(*report.features),
-    get: |settings| &settings.model,
-    set: |settings, network| settings.model = Arc::new(network),
-    title: "one spectrum",
-    module: "model",
-    type_name: "Model",
-    input: features::name,
-};
-
-/// Network of a dual microphone.
-pub const DUAL_MIC: NetworkSpec<{ dual_mic_model::COUNT }, 32, 12> = NetworkSpec {
-    stereo: true,
-    inputs: |report| report.dual_mic.copied(),
-    get: |settings| &settings.dual_mic_model,
-    set: |settings, network| settings.dual_mic_model = Arc::new(network),
-    title: "two capsules",
-    module: "dual_mic_model",
-    type_name: "DualMicModel",
-    input: dual_mic_model::name,
-};
-
-/// Appends the examples of a take, from a run of the detector with these settings.
-pub fn examples<const IN: usize>(
-    take: &Take,
-    settings: &BlowSettings,
-    inputs: fn(&FrameReport<'_>) -> Option<[f64; IN]>,
-    out: &mut Vec<Example<IN>>,
-) {
-    if take.kind == Kind::Ambiguous || take.breaths.iter().any(|b| b.faint) {
-        return;
-    }
-    let mut detector = BlowDetector::with_settings(take.sample_rate, settings.clone());
-    // A museum is noisy; but knocks and the kiosk's own sound must never trigger.
-    let never = take.kind == Kind::Impulse || !take.played.is_empty();
-    let false_positive_weight = FALSE_POSITIVE_WEIGHT * if never { NEVER } else { 1.0 };
-    let mut frames = 0;
-    for (i, &sample) in take.left.iter().enumerate() {
-        let played = take.played.get(i..=i).unwrap_or_default();
-        match &take.right {
-            Some(right) => detector.push_stereo(&[sample], &right[i..=i], played),
-            None => detector.push(&[sample], played),
-        }
-        let report = detector.last_frame();
-        if report.frames == frames {
-            continue;
-        }
-        frames = report.frames;
-        let t = i as f64 / f64::from(take.sample_rate);
-        let breath = take.breaths.iter().find(|b| t > b.onset - 0.02 && t < b.offset + TAIL_S);
-        let is_breath = match breath {
-            Some(b) if t > b.onset + 0.025 && t < b.offset - 0.1 => true,
-            Some(_) => continue,
-            None => false,
+/// A network with random weights, scaled to the examples.
+pub fn initial(scenes: &[Vec<Example>], seed: u64) -> Network {
+    let mut network = Network::zeros();
+    let mut random = Random::new(hash_words(&[seed, 1]));
+    for (name, weights) in network.tensors_mut() {
+        let inputs = match name {
+            "input" => COUNT,
+            "recurrent" | "odds" | "speed" => CELLS,
+            "speed_out" => soffio_detector::network::SPEED_CELLS,
+            _ => continue,
         };
-        // Neighbouring frames are nearly alike, so every other frame of noise is enough.
-        if !report.possible || (!is_breath && frames % 2 == 1) {
-            continue;
-        }
-        let progress = report.progress as f32;
-        let mut weight = match breath {
-            Some(b) if is_breath && t < b.onset + EARLY_S => EARLY_WEIGHT,
-            Some(_) if is_breath && progress < 1.0 => MISSED_WEIGHT,
-            Some(_) if is_breath => 1.0,
-            _ => NOISE_WEIGHT + false_positive_weight * progress,
-        };
-        let sure = if is_breath { report.log_odds > SURE } else { report.log_odds < -SURE && progress == 0.0 };
-        if sure {
-            if !frames.is_multiple_of(2 * SPARED) {
-                continue;
-            }
-            weight *= SPARED as f32;
-        }
-        let inputs = inputs(&report).map(|inputs| inputs.map(|x| x as f32));
-        out.extend(inputs.map(|inputs| Example { inputs, breath: is_breath, weight }));
+        let scale = FIRST_WEIGHTS * (3.0 / inputs as f64).sqrt();
+        weights.iter_mut().for_each(|w| *w = (scale * random.signed()) as f32);
     }
+    let mut count = 0.0;
+    let (mut sum, mut square) = ([0.0; COUNT], [0.0; COUNT]);
+    for example in scenes.iter().flatten().step_by(7) {
+        count += 1.0;
+        for ((s, q), x) in sum.iter_mut().zip(&mut square).zip(example.inputs.map(f64::from)) {
+            *s += x;
+            *q += x * x;
+        }
+    }
+    for ((scale, sum), square) in network.scale.iter_mut().zip(sum).zip(square) {
+        let mean = sum / f64::max(count, 1.0);
+        let variance = square / f64::max(count, 1.0) - mean * mean;
+        *scale = [mean as f32, variance.max(1e-4).sqrt() as f32];
+    }
+    network
 }
 
-/// An untrained network: its log-odds are 0 for every frame, so it never detects a breath.
-pub fn untrained<const IN: usize, const FIRST: usize, const SECOND: usize>() -> Network<IN, FIRST, SECOND> {
-    let weights = vec![0.0; Network::<IN, FIRST, SECOND>::PARAMETERS];
-    Network { scale: [[0.0, 1.0]; IN], weights: weights.into() }
-}
-
-/// Trains a network for a number of epochs over all examples; returns it with its mean loss. An untrained network starts from random
-/// weights.
-pub fn train<const IN: usize, const FIRST: usize, const SECOND: usize>(
-    initial: &Network<IN, FIRST, SECOND>,
-    examples: &[Example<IN>],
-    epochs: usize,
-    seed: u64,
-) -> (Network<IN, FIRST, SECOND>, f64) {
-    let mut random = Random::new(seed);
-    let mut network = initial.clone();
-    let new = network == untrained();
-    let parameters = network.weights.len();
-    let weights = network.weights.to_mut();
-    if new {
-        network.scale = scale(examples);
-        // Random weights, scaled so that each sum is near 1 (Glorot and Bengio 2010).
-        let (first, rest) = weights.split_at_mut(Network::<IN, FIRST, SECOND>::B);
-        first.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (IN + FIRST) as f64).sqrt());
-        rest.iter_mut().for_each(|w| *w = random.signed() * (6.0 / (FIRST + SECOND) as f64).sqrt());
-    }
-    let longest = if new { RATE } else { REVISION * RATE };
-    let mut order: Vec<u32> = (0..examples.len() as u32).collect();
-    let (mut mean, mut square) = (vec![0.0; parameters], vec![0.0; parameters]);
-    let mut gradient = vec![0.0; parameters];
-    let (mut decay1, mut decay2) = (1.0, 1.0);
-    let steps = (examples.len() / MINI_BATCH).max(1) * epochs;
-    let (mut step, mut loss) = (0, 0.0);
-    for _ in 0..epochs {
-        for i in (1..order.len()).rev() {
-            order.swap(i, (random.unit() * (i + 1) as f64) as usize);
-        }
-        loss = 0.0;
-        let mut counted = 1e-9;
-        for batch in order.chunks(MINI_BATCH) {
-            gradient.fill(0.0);
+/// Trains a network; `report` is called after each epoch with its number and the mean loss.
+pub fn train(network: &mut Network, scenes: &[Vec<Example>], epochs: usize, seed: u64, mut report: impl FnMut(usize, f64, &Network)) {
+    let frames: usize = scenes.iter().map(Vec::len).sum();
+    let steps = epochs * frames.div_ceil(LANES * RUN);
+    let mut adam = Adam::new(steps);
+    for epoch in 0..epochs {
+        let lanes = lanes(scenes, hash_words(&[seed, 2, epoch as u64]));
+        let longest = lanes.iter().map(|lane| lane.iter().map(|s| s.len()).sum::<usize>()).max().unwrap_or(0);
+        let mut cursors: Vec<Cursor> = lanes.iter().map(|lane| Cursor { scenes: lane, at: (0, 0), state: [0.0; CELLS] }).collect();
+        let (mut loss, mut counted) = (0.0, 0.0);
+        for _ in 0..longest.div_ceil(RUN) {
+            let tasks: Vec<std::sync::Mutex<&mut [Cursor]>> =
+                cursors.chunks_mut(LANES_PER_TASK).map(std::sync::Mutex::new).collect();
+            let current = &*network;
+            let sums = parallel(tasks.len(), |task| {
+                let mut sum = Network::zeros();
+                let (mut loss, mut weight) = (0.0, 0.0);
+                if let Ok(mut cursors) = tasks[task].lock() {
+                    for cursor in cursors.iter_mut() {
+                        let run = cursor.next_run();
+                        weight += run.iter().map(|e| f64::from(e.weight)).sum::<f64>();
+                        loss += add_gradient(current, &mut cursor.state, &run, &mut sum);
+                    }
+                }
+                (sum, loss, weight)
+            });
+            let mut total = Network::zeros();
             let mut weight = 0.0;
-            for &i in batch {
-                let example = &examples[i as usize];
-                loss += accumulate_gradient(&network, example, &mut random, &mut gradient);
-                weight += f64::from(example.weight);
+            for (mut part, part_loss, part_weight) in sums {
+                loss += part_loss;
+                weight += part_weight;
+                for ((_, sum), (_, part)) in total.tensors_mut().into_iter().zip(part.tensors_mut()) {
+                    sum.iter_mut().zip(part).for_each(|(s, p)| *s += *p);
+                }
             }
             counted += weight;
-            let rate = longest * (0.02 + 0.49 * (1.0 + cos(PI * step as f64 / steps as f64)));
-            step += 1;
-            (decay1, decay2) = (0.9 * decay1, 0.999 * decay2);
-            let weights = network.weights.to_mut();
-            for (((w, g), m), s) in weights.iter_mut().zip(&gradient).zip(&mut mean).zip(&mut square) {
-                let g = g / weight + RIDGE * *w;
-                *m += 0.1 * (g - *m);
-                *s += 0.001 * (g * g - *s);
-                *w -= rate * (*m / (1.0 - decay1)) / ((*s / (1.0 - decay2)).sqrt() + 1e-8);
-            }
+            adam.step(network, &mut total, weight.max(1.0));
         }
-        loss /= counted;
+        report(epoch, loss / f64::max(counted, 1.0), network);
     }
-    (network, loss)
 }
 
-/// Mean and deviation of each input.
-fn scale<const IN: usize>(examples: &[Example<IN>]) -> [[f64; 2]; IN] {
-    let n = examples.len().max(1) as f64;
-    std::array::from_fn(|i| {
-        let values = || examples.iter().map(|e| f64::from(e.inputs[i]));
-        let mean = values().sum::<f64>() / n;
-        let square = values().map(|x| (x - mean) * (x - mean)).sum::<f64>() / n;
-        [mean, square.sqrt().max(1e-3)]
-    })
+/// Mean loss of a network over scenes.
+pub fn loss(network: &Network, scenes: &[Vec<Example>]) -> f64 {
+    let parts = parallel(scenes.len(), |i| {
+        let weight: f64 = scenes[i].iter().map(|e| f64::from(e.weight)).sum();
+        (add_gradient(network, &mut [0.0; CELLS], &scenes[i], &mut Network::zeros()), weight)
+    });
+    let (loss, weight) = parts.into_iter().fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+    loss / f64::max(weight, 1.0)
 }
 
-/// Adds the gradient of one example; returns its loss.
-fn accumulate_gradient<const IN: usize, const FIRST: usize, const SECOND: usize>(
-    network: &Network<IN, FIRST, SECOND>,
-    example: &Example<IN>,
-    random: &mut Random,
-    gradient: &mut [f64],
-) -> f64 {
-    let (b, c) = (Network::<IN, FIRST, SECOND>::B, Network::<IN, FIRST, SECOND>::C);
-    let input = network.standardised(&example.inputs.map(f64::from)).map(|x| x + JITTER * random.signed());
-    let layers = network.layers(&input);
-    let z = layers.log_odds.clamp(-30.0, 30.0);
-    let p = 1.0 / (1.0 + exp(-z));
-    let (y, weight) = (f64::from(u8::from(example.breath)), f64::from(example.weight));
-    let slope = weight * (p - y);
-    // dσ/dz = (1 − |σ|)².
-    let softsign_slope = |s: f64| (1.0 - s.abs()) * (1.0 - s.abs());
-    let mut d2 = [0.0; SECOND];
-    for j in 0..SECOND {
-        gradient[c + j] += slope * layers.second[j];
-        d2[j] = slope * network.weights[c + j] * softsign_slope(layers.second[j]);
+/// Scenes in a shuffled order, dealt to the lanes: each goes to the shortest.
+fn lanes(scenes: &[Vec<Example>], seed: u64) -> Vec<Vec<&[Example]>> {
+    let mut order: Vec<usize> = (0..scenes.len()).collect();
+    let mut random = Random::new(seed);
+    for i in (1..order.len()).rev() {
+        order.swap(i, (random.unit() * (i + 1) as f64) as usize);
     }
-    gradient[c + SECOND] += slope;
-    let mut d1 = [0.0; FIRST];
-    for i in 0..FIRST {
-        let row = &network.weights[b + i * SECOND..][..SECOND];
-        d1[i] = row.iter().zip(&d2).map(|(w, d)| w * d).sum::<f64>() * softsign_slope(layers.first[i]);
+    let mut lanes = vec![Vec::new(); LANES];
+    let mut lengths = [0; LANES];
+    for scene in order {
+        let shortest = (0..LANES).min_by_key(|lane| lengths[*lane]).unwrap_or(0);
+        lanes[shortest].push(scenes[scene].as_slice());
+        lengths[shortest] += scenes[scene].len();
     }
-    add_outer(&mut gradient[b..c], &layers.first, &d2);
-    add_outer(&mut gradient[..b], &layers.input, &d1);
-    let likely = if example.breath { p } else { 1.0 - p };
-    -weight * soffio_math::ln(likely.max(1e-12))
+    lanes
 }
 
-/// Adds the outer product x dᵀ, and d to the row after it.
-fn add_outer<const N: usize, const M: usize>(gradient: &mut [f64], x: &[f64; N], d: &[f64; M]) {
-    for (row, x) in gradient.as_chunks_mut::<M>().0.iter_mut().zip(x.iter().chain(&[1.0])) {
-        for (g, d) in row.iter_mut().zip(d) {
-            *g += d * x;
+/// Position in a lane.
+struct Cursor<'a> {
+    scenes: &'a [&'a [Example]],
+    /// Scene, and frame in it.
+    at: (usize, usize),
+    state: State,
+}
+
+impl Cursor<'_> {
+    /// The next frames, [`RUN`] at most.
+    fn next_run(&mut self) -> Vec<Example> {
+        let mut run = Vec::with_capacity(RUN);
+        while run.len() < RUN && self.at.0 < self.scenes.len() {
+            let scene = self.scenes[self.at.0];
+            let until = scene.len().min(self.at.1 + RUN - run.len());
+            run.extend_from_slice(&scene[self.at.1..until]);
+            self.at = if until == scene.len() { (self.at.0 + 1, 0) } else { (self.at.0, until) };
+        }
+        run
+    }
+}
+
+/// State of Adam.
+struct Adam {
+    mean: Network,
+    square: Network,
+    done: f64,
+    steps: f64,
+}
+
+impl Adam {
+    fn new(steps: usize) -> Self {
+        let zeros = || {
+            let mut zeros = Network::zeros();
+            zeros.scale.as_flattened_mut().fill(0.0);
+            zeros
+        };
+        Self { mean: zeros(), square: zeros(), done: 0.0, steps: steps.max(1) as f64 }
+    }
+
+    /// Moves the weights against the gradient, which is divided by the number of frames. The scale of the inputs stays.
+    fn step(&mut self, network: &mut Network, gradient: &mut Network, frames: f64) {
+        self.done += 1.0;
+        let gradient: Vec<&mut [f32]> = gradient.tensors_mut().into_iter().skip(1).map(|(_, g)| g).collect();
+        let square: f64 = gradient.iter().flat_map(|g| g.iter()).map(|g| f64::from(*g) * f64::from(*g)).sum();
+        let norm = square.sqrt() / frames;
+        let shortened = (1.0 / frames) * (LONGEST / norm.max(LONGEST));
+        let phase = (self.done / self.steps).min(1.0);
+        let rate = RATE * (self.done / WARM_UP).min(1.0) * 0.5 * (1.0 + cos(PI * phase));
+        let [mean_left, square_left] = FORGETTING.map(|f| 1.0 - pow(f, self.done));
+        let (rate, root) = ((rate / mean_left) as f32, (1.0 / square_left) as f32);
+        let [keep_mean, keep_square] = FORGETTING.map(|f| f as f32);
+        let weights = network.tensors_mut().into_iter().skip(1);
+        let moments = self.mean.tensors_mut().into_iter().zip(self.square.tensors_mut()).skip(1);
+        for (((_, weights), ((_, means), (_, squares))), gradient) in weights.zip(moments).zip(gradient) {
+            for (((w, m), s), g) in weights.iter_mut().zip(means).zip(squares).zip(gradient.iter()) {
+                let g = g * shortened as f32;
+                *m = keep_mean * *m + (1.0 - keep_mean) * g;
+                *s = keep_square * *s + (1.0 - keep_square) * g * g;
+                *w -= rate * *m / ((*s * root).sqrt() + EPSILON);
+            }
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Reading and writing of WAVs, and the summary of `soffio breath`.
 
 use soffio::commands::breath;
-use soffio_detector::generate::{self, BreathShape};
 use soffio_offline::wav::{self, WavError};
+use soffio_soundscape::breath::Breath;
 
 #[test]
 fn every_kind_of_wav_reads_as_the_same_sound() {
@@ -43,7 +43,7 @@ fn every_kind_of_wav_reads_as_the_same_sound() {
 fn a_written_wav_reads_back_to_the_bit() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("breath.wav");
-    let samples = generate::breath(48000, 1, &BreathShape { hold: 0.2, ..BreathShape::default() });
+    let samples = Breath { hold: 0.2, ..Breath::default() }.recorded(48000, 1);
     wav::write_float(&path, 1, 48000, &samples).unwrap();
     let back = wav::read(&path).unwrap();
     assert_eq!((back.samples, back.sample_rate), (samples, 48000));
@@ -79,9 +79,9 @@ const STEP_S: f64 = 0.013;
 
 #[test]
 fn the_summary_matches_the_steps() {
-    let (first, second) = (BreathShape::default(), BreathShape { strength: 13.0, hold: 0.8, ..BreathShape::default() });
-    let mut samples = generate::breath(44100, 2, &first);
-    samples.extend(generate::breath(44100, 3, &second));
+    let (first, second) = (Breath::default(), Breath { speed: 13.0, hold: 0.8, ..Breath::default() });
+    let mut samples = first.recorded(44100, 2);
+    samples.extend(second.recorded(44100, 3));
     let recording = wav::Recording { samples, capsules: None, sample_rate: 44100 };
     let steps = breath::steps(&recording);
     assert_eq!(steps.len(), (recording.duration() * 240.0).ceil() as usize, "a row per step");

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use soffio_config::Config;
-use soffio_detector::generate::{self, BreathShape};
 use soffio_detector::{BlowSettings, Rules};
 use soffio_exhibit as exhibit;
 use soffio_kiosk::venue::site::Site;
@@ -16,6 +15,7 @@ use soffio_rehearsal::report::{ENOUGH, Report};
 use soffio_rehearsal::scorer::{BEFORE, CONTINGENT, FPS, Picture, Response, SOON, median, score};
 use soffio_rehearsal::visitor::{Intent, Visit};
 use soffio_rehearsal::{Crowd, Rehearsal, recorded, run, run_detector};
+use soffio_soundscape::breath::Breath;
 
 use crate::cli::Desk;
 
@@ -145,16 +145,16 @@ fn a_visitor_who_sees_no_response_blows_again_from_the_same_place_and_gives_up()
     const BREATHS: usize = 3;
     for seed in 0..40 {
         let mut visit = Visit::of(Intent::Blows, 100.0, 0.0, &mut Random::new(seed));
-        let mouth = visit.breaths[0].shape;
+        let mouth = visit.breaths[0].recipe;
         while let Some(next) = visit.retry() {
             let pause = next.onset - visit.last_breath_end().expect("it blows");
             assert!((1.5..4.0).contains(&pause), "seed {seed}: {pause} s");
-            let shape = next.shape;
+            let recipe = next.recipe;
             assert_eq!(
-                (shape.distance, shape.angle_deg, shape.attack),
+                (recipe.distance, recipe.angle_deg, recipe.attack),
                 (mouth.distance, mouth.angle_deg, mouth.attack)
             );
-            assert!((0.69 * mouth.strength..1.31 * mouth.strength).contains(&shape.strength), "seed {seed}");
+            assert!((0.69 * mouth.speed..1.31 * mouth.speed).contains(&recipe.speed), "seed {seed}");
             assert_eq!(visit.retry().map(|breath| breath.onset), Some(next.onset), "the same the second time");
             visit.breaths.push(next);
         }
@@ -255,8 +255,8 @@ fn some_minutes_get_responses_and_the_same_report_twice() {
 #[ignore = "draws hundreds of pictures, minutes in software"]
 fn a_breath_in_the_crowds_recording_is_a_false_trigger_and_misses_the_bar() {
     // The person in the recording is no visitor, so a response to that breath is a false trigger.
-    let shape = BreathShape { lead_in: 3.0, strength: 13.0, lead_out: 25.0, ..BreathShape::default() };
-    let samples = generate::breath(16_000, 9, &shape);
+    let breath = Breath { lead_in: 3.0, speed: 13.0, lead_out: 25.0, ..Breath::default() };
+    let samples = breath.recorded(16_000, 9);
     let recording = Recording { samples, capsules: None, sample_rate: 16_000 };
     let crowd = recorded(&[recording]).expect("long enough");
     let report = rehearsed(rehearsal(0.03, 1, crowd));

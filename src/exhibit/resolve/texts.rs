@@ -9,7 +9,7 @@ use super::super::source::join;
 use super::super::view::{MAX_PITCH_DOWN, MAX_PITCH_UP, MAX_YAW};
 use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
 use super::context::Context;
-use soffio_detector::generate::{self, BreathShape, HARDEST_M_S};
+use soffio_soundscape::breath::{Breath, HARDEST_M_S};
 
 /// Most bytes of a recorded breath.
 const MAX_WAV_BYTES: u64 = 64 << 20;
@@ -212,7 +212,7 @@ impl Context<'_> {
                 }
             },
             (None, Some(strength)) => {
-                let default = BreathShape::default();
+                let default = Breath::default();
                 let mut seconds = [default.attack, default.hold, default.release];
                 for (value, (key, time)) in seconds.iter_mut().zip(times) {
                     let Some(time) = time else { continue };
@@ -225,10 +225,9 @@ impl Context<'_> {
                     }
                 }
                 let [attack, hold, release] = seconds;
-                let strength = strength * HARDEST_M_S;
-                let quiet = QUIET_AROUND;
-                let shape = BreathShape { lead_in: quiet, strength, attack, hold, release, lead_out: quiet, ..default };
-                Some((generate::breath(BREATH_RATE, seed as u64, &shape).into(), BREATH_RATE))
+                let (speed, quiet) = (strength * HARDEST_M_S, QUIET_AROUND);
+                let breath = Breath { lead_in: quiet, speed, attack, hold, release, lead_out: quiet, ..default };
+                Some((breath.recorded(BREATH_RATE, seed as u64).into(), BREATH_RATE))
             }
             _ => {
                 let problem = Diagnostic::new(codes::WRONG_SHAPE, "a breath needs either a recording or a strength");

@@ -243,7 +243,7 @@ fn the_ear_does_not_take_the_kiosks_speech_for_a_breath() {
     for gain in [0.2_f32, 0.7] {
         let mut detector = BlowDetector::new(RATE);
         let mut recording =
-            soffio_detector::generate::pink_noise(RATE, 90, words.samples.len() as f64 / f64::from(RATE), -60.0);
+            soffio_soundscape::test_sounds::pink_noise(RATE, 90, words.samples.len() as f64 / f64::from(RATE), -60.0);
         recording.resize(words.samples.len(), 0.0);
         let mut windy = 0;
         for (i, played) in words.samples.chunks(200).enumerate() {

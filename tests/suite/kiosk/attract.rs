@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use soffio_detector::generate;
+use soffio_soundscape::breath::Breath;
 use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
 use soffio_kiosk::attract::script::AttractMode;
 use soffio_simulation::Command;
@@ -71,7 +71,7 @@ fn what_the_attract_script_has_set_swinging_is_calmed_a_second_later() {
 fn the_attract_scripts_breath_grows_softer_the_faster_the_work_moves_than_before_it() {
     const ROUNDING: f64 = 1e-9;
     // The fastest breath of a round, of a work that moves so fast (m/s) before and during it.
-    let samples: Arc<[f32]> = generate::breath(48_000, 7, &generate::BreathShape::default()).into();
+    let samples: Arc<[f32]> = Breath::default().recorded(48_000, 7).into();
     let blow = AttractAction::Blow { samples, sample_rate: 48_000, aim: None };
     let script = Script { steps: vec![AttractStep { at: 0.25, action: blow }], duration: 8.0 };
     let fastest = |before: f64, during: f64| {

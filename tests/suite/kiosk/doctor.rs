@@ -1,7 +1,7 @@
 //! `soffio doctor`: what it says of a room and of a breath.
 
 use soffio::commands::doctor::{Health, judge_blow, judge_room};
-use soffio_detector::generate::{self, BreathShape};
+use soffio_soundscape::breath::Breath;
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
 
 const RATE: u32 = 48_000;
@@ -32,7 +32,7 @@ fn a_quiet_room_is_well_and_every_fault_has_its_remedy() {
 /// What the detector says every 20 ms of a normal breath whose samples were so many dB louder.
 fn blown(gain_db: f64, sensitivity_db: f64) -> Vec<BlowEstimate> {
     let gain = soffio_math::db_to_amplitude(gain_db) as f32;
-    let breath = generate::breath(RATE, 7, &BreathShape::default());
+    let breath = Breath::default().recorded(RATE, 7);
     let settings = BlowSettings { sensitivity_db, ..BlowSettings::default() };
     let mut detector = BlowDetector::with_settings(RATE, settings);
     let hear = |block: &[f32]| {

@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use soffio_detector::generate::{self, BreathShape};
 use soffio_detector::{BlowEstimate, Reason};
 use soffio_devices::audio::{MicrophoneSamples, input};
 use soffio_exhibit::{self as exhibit, AttractAction, Exhibit};
@@ -16,6 +15,7 @@ use soffio_offline::feed::WavFeed;
 use soffio_offline::play::{self, Play};
 use soffio_offline::wav;
 use soffio_simulation::{Command, Microphone, MotionMode, Script, Settings, Simulation, StepInput};
+use soffio_soundscape::breath::Breath;
 
 const RATE: u32 = 48_000;
 
@@ -94,7 +94,7 @@ fn the_ear_listens_on_while_another_work_comes_and_while_nobody_is_heard() {
     const SETTLES: usize = 60;
     let chimes = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/wind-chimes");
     let chimes = Arc::new(exhibit::load(&chimes).expect("the shipped exhibit is valid"));
-    let breath = generate::breath(RATE, 7, &BreathShape::default());
+    let breath = Breath::default().recorded(RATE, 7);
     // The breath is at its height from 1.1 to 2.3 s.
     let (change, heard_again) = (360, 420);
     for cleans in [false, true] {
@@ -118,7 +118,7 @@ fn the_ear_listens_on_while_another_work_comes_and_while_nobody_is_heard() {
 
 #[test]
 fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
-    let capsules = [7, 8].map(|seed| generate::breath(RATE, seed, &BreathShape::default()));
+    let capsules = Breath { spacing: 0.05, ..Breath::default() }.recorded_by_both(RATE, 7);
     let frames: Vec<f32> = capsules[0].iter().zip(&capsules[1]).flat_map(|(left, right)| [*left, *right]).collect();
     let file = tempfile::NamedTempFile::new().expect("a temporary file");
     wav::write_float(file.path(), 2, RATE, &frames).expect("it is written");

@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use soffio_config::CLEANING_S;
 use soffio_config::{Chord, Day, Modifiers, Opening};
-use soffio_detector::generate::{self, BreathShape};
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
@@ -12,6 +11,7 @@ use soffio_kiosk::venue::state::{OverlayCapture, SignalContext, VenueState};
 use soffio_kiosk::visitor::gesture::Press;
 use soffio_kiosk::visitor::input::{Key, Keys, Phase, Request, Signal, Visitor};
 use soffio_simulation::{Microphone, Settings};
+use soffio_soundscape::breath::Breath;
 
 const RATE: u32 = 48_000;
 
@@ -138,7 +138,7 @@ fn steel_fish() -> Arc<Exhibit> {
 
 #[test]
 fn nothing_blows_takes_or_begins_while_nobody_is_heard() {
-    let breath = generate::breath(RATE, 7, &BreathShape::default());
+    let breath = Breath::default().recorded(RATE, 7);
     let controls = Controls {
         aspect: 16.0 / 9.0,
         hold: true,

@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
-use soffio_detector::generate::{self, BreathShape};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
 use soffio_math::noise::Random;
+use soffio_soundscape::breath::Breath;
+use soffio_soundscape::test_sounds as sounds;
 
 const RATE: u32 = 48000;
 /// Samples of one simulation step.
@@ -77,7 +78,7 @@ fn run(visitor: &[f32], gain: f32, mut play: impl FnMut(usize, f64) -> f32) -> V
 }
 
 fn quiet_room(seconds: f64) -> Vec<f32> {
-    generate::pink_noise(RATE, 90, seconds, -60.0)
+    sounds::pink_noise(RATE, 90, seconds, -60.0)
 }
 
 /// Share of a breath, its ends left out, for which the wind must last while the kiosk is as loud as the breath: between gusts the
@@ -87,19 +88,20 @@ const HELD: f64 = 0.8;
 #[test]
 fn a_breath_that_makes_the_kiosk_sound_is_still_a_breath_and_ends() {
     for (seed, strength) in [(1, 6.0), (2, 8.9), (3, 13.3)] {
-        let shape = BreathShape { strength, hold: 2.0, lead_out: 3.0, ..BreathShape::default() };
-        let mut visitor = generate::breath(RATE, seed, &shape);
+        let breath = Breath { speed: strength, hold: 2.0, lead_out: 3.0, ..Breath::default() };
+        let mut visitor = breath.recorded(RATE, seed);
         // Twice: the second time the detector knows the echo.
-        visitor.extend(generate::breath(RATE, seed + 10, &shape));
+        visitor.extend(breath.recorded(RATE, seed));
         let mut sound = WindSound::new(seed);
         let wind = run(&visitor, 1.0, |_, speed| sound.next(speed));
-        for start in [0.0, shape.duration()] {
-            let (onset, end) = shape.span();
+        for start in [0.0, breath.duration()] {
+            let label = breath.label(0.0, &breath.speeds(seed));
+            let (onset, end) = (label.arrival, label.end);
             let inside = |t: f64| t > start + onset + 0.3 && t < start + end - 0.3;
             let during: Vec<_> = wind.iter().filter(|(t, _)| inside(*t)).collect();
             let held = during.iter().filter(|(_, e)| e.speed > 0.0).count() as f64 / during.len() as f64;
             assert!(held > HELD, "{strength} m/s from {start} s: wind for {:.0} % of the breath", 100.0 * held);
-            let late = |t: f64| t > start + end + 0.4 && t < start + shape.duration();
+            let late = |t: f64| t > start + end + 0.4 && t < start + breath.duration();
             let false_trigger = wind.iter().find(|(t, e)| late(*t) && e.speed > 0.0);
             assert!(false_trigger.is_none(), "{strength} m/s from {start} s: wind after the breath: {false_trigger:?}");
         }
@@ -119,7 +121,7 @@ fn the_kiosk_alone_never_makes_wind() {
     }
     // Low bursts like breath, a played breath, and a chime.
     let times: Vec<f64> = (0..6).map(|k| 0.6 + 1.2 * f64::from(k)).collect();
-    let shape = BreathShape { lead_in: 0.8, hold: 1.5, lead_out: 4.0, corner_hz: 60.0, ..BreathShape::default() };
+    let breath = Breath { lead_in: 0.8, hold: 1.5, lead_out: 4.0, ..Breath::default() };
     let chime = |i: usize| {
         let t = (i as f64 / f64::from(RATE)) % 1.5;
         let partials = [(520.0, 0.3), (1434.0, 0.2), (2810.0, 0.1)];
@@ -127,8 +129,8 @@ fn the_kiosk_alone_never_makes_wind() {
             as f32
     };
     let sounds: [(&str, Vec<f32>); 3] = [
-        ("thuds", generate::thuds(RATE, 6, seconds, &times, 0.8)),
-        ("a recorded breath that is played", generate::breath(RATE, 7, &shape)),
+        ("thuds", sounds::thuds(RATE, 6, seconds, &times, 0.8)),
+        ("a recorded breath that is played", breath.recorded(RATE, 7)),
         ("a chime", (0..(seconds * f64::from(RATE)) as usize).map(chime).collect()),
     ];
     for (name, sound) in sounds {

@@ -33,11 +33,9 @@ pub(crate) fn reason(reason: Reason) -> TextId {
         Reason::Settling => TextId::StaffReasonSettling,
         Reason::Quiet => TextId::StaffReasonQuiet,
         Reason::Voiced => TextId::StaffReasonVoiced,
-        Reason::MidBand => TextId::StaffReasonMidBand,
-        Reason::Impulse => TextId::StaffReasonImpulse,
+        Reason::OtherSound => TextId::StaffReasonOtherSound,
         Reason::Pending => TextId::StaffReasonPending,
         Reason::Blow => TextId::StaffReasonBlow,
-        Reason::TimedOut => TextId::StaffReasonTimedOut,
         Reason::LoudspeakerEcho => TextId::StaffReasonMasked,
         Reason::Fault => TextId::StaffReasonFault,
     }
