@@ -1,37 +1,66 @@
-//! Inputs of the network, a vector per frame of 8 ms, independent of the microphone's gain.
+//! Inputs of the model, a vector per frame of 8 ms, independent of the microphone's gain.
 //!
 //! Air at a capsule is noise of low frequency: turbulence that is swept past at the local speed U has a flat spectrum below
 //! U/(2π L), L being the size of the large eddies, and falls steeply above (`../training/generator`). Where a microphone has a high-pass,
 //! only the flank is left. Lips add a hiss above 400 Hz. Between two capsules turbulence is incoherent and sound is not.
-//! So for each band the network sees:
+//! So for each frame the model sees:
 //!
 //! | inputs | meaning |
 //! |---|---|
-//! | rise | level over the noise floor, without the loudspeaker's echo |
-//! | shape | level relative to the loudest band: the same at any distance from the floor |
-//! | strangeness | the rise relative to the usual spread of this room |
+//! | shape | level of each band relative to the loudest one |
+//! | excess | the same of the power over the noise floor: what is new in this room |
+//! | course | level of three regions relative to its recent peak, and to its mean: impacts jump and die away, a breath swells |
 //! | periodicity | largest autocorrelation at 80–400 Hz: voices and music |
 //! | echo | share of the loudspeaker's echo in the rumble |
+//! | rise | rise over the floor of the highest band, and means of the highest three and six |
+//! | strangeness | the same of the rise relative to the usual spread of this room |
 //! | two capsules | 1, or 0 with one: then all inputs after it are 0 |
-//! | incoherent rise | the same rise of the incoherent power of wide bands |
+//! | incoherent rise | rise of the incoherent power of wide bands |
 //! | incoherent strangeness | the same, relative to its spread |
 //! | decorrelation | 1 − γ² of wide bands |
 //!
+//! Rise, strangeness and decorrelation are evidence in one direction: more of them never speaks against a breath ([`is_rising`]).
+//!
 //! Decibels are compressed, tanh(r/R): 25 dB over the floor say no more than 60, which only a microphone that is silent in between
-//! has.
+//! has. Each input is followed by its running means over [`MEANS_S`]: how a sound has developed.
 
-use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, power_to_db, powers};
+use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, blend, power_to_db, powers};
 use super::noise_floor::Floor;
 use super::coherence::Coherence;
-use super::spectrum::{Framer, Power, TRANSFORM};
-use soffio_math::{PI, cos, tanh};
+use super::spectrum::{FRAME_S, Framer, Power, TRANSFORM};
+use soffio_math::{PI, cos, db_to_amplitude, tanh};
 
-/// Number of inputs.
-pub const COUNT: usize = 3 * BANDS + 3 + 3 * WIDE;
-/// Inputs that describe the shape of the spectrum.
-pub const SHAPE: std::ops::Range<usize> = BANDS..2 * BANDS;
-/// Inputs of the network for one frame.
+/// Values of one frame.
+const NOW: usize = STEREO + 1 + 3 * WIDE;
+/// Number of inputs: the values of the frame and their means.
+pub const COUNT: usize = NOW * (1 + MEANS_S.len());
+/// Inputs of the model for one frame.
 pub type Inputs = [f32; COUNT];
+
+/// Time constants of the running means, s: an attack, a puff, a breath.
+const MEANS_S: [f64; 3] = [0.1, 0.4, 1.5];
+/// Where the groups of values begin.
+const EXCESS: usize = BANDS;
+const COURSE: usize = 2 * BANDS;
+const PERIODICITY: usize = COURSE + 2 * REGIONS.len();
+const ECHO: usize = PERIODICITY + 1;
+const RISE: usize = ECHO + 1;
+const STRANGENESS: usize = RISE + TOP.len();
+const STEREO: usize = STRANGENESS + TOP.len();
+/// Bands of the regions whose course is followed: 16–219, 219–875 and 875–3406 Hz.
+const REGIONS: [std::ops::Range<usize>; 3] = [0..5, 5..9, 9..13];
+/// Fall of the recent peak, dB/s.
+const PEAK_FALL_DB_S: f64 = 20.0;
+/// Time constant of the mean beside the recent peak, s.
+const COURSE_S: f64 = 0.1;
+/// R of the compression of a course, dB.
+const COURSE_DB: f64 = 15.0;
+/// Numbers of highest bands whose rises are averaged.
+const TOP: [usize; 3] = [1, 3, 6];
+/// Power of the noise floor that is subtracted, over its mean: noise scatters by this much.
+const FLOOR_MARGIN: f64 = 1.5;
+/// Least excess relative to the band's power.
+const LEAST_EXCESS: f64 = 0.01;
 
 /// Smallest power of a band (−78 dBFS): below it lies a converter's own noise.
 const MIN_POWER: f64 = 1.6e-8;
@@ -61,12 +90,16 @@ pub struct Features {
     coherence: Coherence,
     /// cos(2π k τ / N) for each bin k of the harmonics, and each lag τ.
     cosines: Vec<[f32; LAGS]>,
+    /// Recent peak and mean of the level of each region, dB of full scale; `None` before the first frame.
+    course: [Option<(f64, f64)>; REGIONS.len()],
+    /// The values of the last frame and their means, one after the other; `None` before the first frame.
+    inputs: Option<Inputs>,
 }
 
 /// Measurements of one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Inputs of the network.
+    /// Inputs of the model.
     pub inputs: Inputs,
     /// Levels of the bands without the echo, dB of full scale.
     pub levels: [f64; BANDS],
@@ -91,35 +124,59 @@ impl Features {
                     std::array::from_fn(|lag| cos(turn(lag)) as f32)
                 })
                 .collect(),
+            course: [None; REGIONS.len()],
+            inputs: None,
         }
     }
 
-    /// Measures a frame; `echo` is the predicted power of the loudspeaker's echo, and `stereo` says that there are two capsules.
-    pub fn push(&mut self, framer: &Framer, echo: &Power, stereo: bool) -> Frame {
-        let [power, echo_power]: [[f64; BANDS]; 2] = [&framer.microphone, echo].map(|p| powers(p, &EDGES));
+    /// Measures a frame; `echo_spectrum` is the predicted power of the loudspeaker's echo, and `stereo` says that there are two capsules.
+    pub fn push(&mut self, framer: &Framer, echo_spectrum: &Power, stereo: bool) -> Frame {
+        let [power, echo_power]: [[f64; BANDS]; 2] = [&framer.microphone, echo_spectrum].map(|p| powers(p, &EDGES));
         let levels: [f64; BANDS] = std::array::from_fn(|b| {
             power_to_db((power[b] - echo_power[b]).max(RESIDUE * echo_power[b]).max(0.0) + MIN_POWER)
         });
         self.floor.learn(&levels);
-        let mut inputs = [0.0; COUNT];
-        let mut rise_db = 0.0_f64;
-        let loudest = levels.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        for (b, level) in levels.iter().enumerate() {
-            let rise = self.floor.rise(b, *level);
-            rise_db = rise_db.max(rise);
-            inputs[b] = compressed(rise, RISE_DB);
-            inputs[BANDS + b] = compressed(level - loudest, SHAPE_DB);
-            inputs[2 * BANDS + b] = compressed(rise / self.floor.spread(b).max(MIN_SPREAD_DB), STRANGE);
+        let mut now = [0.0; NOW];
+        let rises: [f64; BANDS] = std::array::from_fn(|b| self.floor.rise(b, levels[b]));
+        let strangeness = std::array::from_fn(|b| rises[b] / self.floor.spread(b).max(MIN_SPREAD_DB));
+        let excess = std::array::from_fn(|b| {
+            // Power relative to the floor, then back to the level of the band.
+            let over = db_to_amplitude(2.0 * rises[b]);
+            self.floor.level[b] + power_to_db((over - FLOOR_MARGIN).max(LEAST_EXCESS * over))
+        });
+        now[..EXCESS].copy_from_slice(&shape(&levels));
+        now[EXCESS..COURSE].copy_from_slice(&shape(&excess));
+        for (i, (course, bands)) in self.course.iter_mut().zip(REGIONS).enumerate() {
+            let level = power_to_db(levels[bands].iter().map(|db| db_to_amplitude(2.0 * db)).sum());
+            let (peak, mean) = course.unwrap_or((level, level));
+            let (peak, mean) = (level.max(peak - PEAK_FALL_DB_S * FRAME_S), mean + blend(COURSE_S) * (level - mean));
+            *course = Some((peak, mean));
+            now[COURSE + 2 * i] = compressed(level - peak, COURSE_DB);
+            now[COURSE + 2 * i + 1] = compressed(level - mean, COURSE_DB);
         }
         let sum = |of: &[f64; BANDS]| of[RUMBLE].iter().sum::<f64>();
-        let share = (sum(&echo_power) / (sum(&power) + MIN_POWER)).min(1.0);
+        let echo = (sum(&echo_power) / (sum(&power) + MIN_POWER)).min(1.0);
         let periodicity = self.periodicity(&framer.microphone);
-        inputs[3 * BANDS..3 * BANDS + 2].copy_from_slice(&[periodicity, share as f32]);
+        (now[PERIODICITY], now[ECHO]) = (periodicity, echo as f32);
+        now[RISE..STRANGENESS].copy_from_slice(&highest(rises).map(|mean| compressed(mean, RISE_DB)));
+        now[STRANGENESS..STEREO].copy_from_slice(&highest(strangeness).map(|mean| compressed(mean, STRANGE)));
         if stereo {
-            inputs[3 * BANDS + 2] = 1.0;
-            self.compare(framer, &powers(echo, &WIDE_EDGES), &mut inputs[3 * BANDS + 3..]);
+            now[STEREO] = 1.0;
+            self.compare(framer, &powers(echo_spectrum, &WIDE_EDGES), &mut now[STEREO + 1..]);
         }
-        Frame { inputs, levels, rise_db, echo: share, periodicity }
+        let rise_db = rises.into_iter().fold(0.0, f64::max);
+        Frame { inputs: self.with_means(&now), levels, rise_db, echo, periodicity }
+    }
+
+    /// The values of a frame, followed by their running means.
+    fn with_means(&mut self, now: &[f32; NOW]) -> Inputs {
+        let inputs = self.inputs.get_or_insert_with(|| std::array::from_fn(|i| now[i % NOW]));
+        inputs[..NOW].copy_from_slice(now);
+        for (means, seconds) in inputs[NOW..].chunks_mut(NOW).zip(MEANS_S) {
+            let weight = blend(seconds) as f32;
+            means.iter_mut().zip(now).for_each(|(mean, x)| *mean += weight * (x - *mean));
+        }
+        *inputs
     }
 
     /// Inputs of two capsules.
@@ -152,7 +209,25 @@ impl Features {
     }
 }
 
-/// R tanh(x/R), over R: −1 … 1.
+/// Levels relative to the loudest band, compressed.
+fn shape(levels: &[f64; BANDS]) -> [f32; BANDS] {
+    let loudest = levels.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    levels.map(|level| compressed(level - loudest, SHAPE_DB))
+}
+
+/// Means of the highest values of bands, for each number of them in [`TOP`].
+fn highest(mut values: [f64; BANDS]) -> [f64; TOP.len()] {
+    values.sort_by(|a, b| b.total_cmp(a));
+    TOP.map(|count| values[..count].iter().sum::<f64>() / count as f64)
+}
+
+/// True for an input of which more never speaks against a breath.
+pub fn is_rising(input: usize) -> bool {
+    let value = input % NOW;
+    (RISE..STEREO).contains(&value) || value > STEREO
+}
+
+/// tanh(x/R): −1 … 1.
 fn compressed(x: f64, range: f64) -> f32 {
     tanh(x / range) as f32
 }

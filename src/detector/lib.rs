@@ -2,13 +2,13 @@
 //!
 //! ```text
 //! samples → resample (8 kHz) → spectrum (48 ms every 8 ms) → echo_estimate (the kiosk's own loudspeaker)
-//!         → features (rise over the floor, incoherence of two capsules) → network (log-odds, speed) → decision (cumulative sum)
+//!         → features (shape, rise over the floor, incoherence) → model (log-odds, speed) → decision (cumulative sum)
 //! ```
 //!
 //! A breath that strikes a microphone capsule makes turbulence, which is noise of low frequency far above the ambient noise. Level
-//! alone does not separate it from doors, trains and voices, and depends on the gain. So a small recurrent network weighs how far
-//! each band rises over its floor, how unusual that is in this room, and how it develops. With two capsules it also sees what they do
-//! not share. The level only sets the strength of a detected breath.
+//! alone does not separate it from doors, trains and voices, and depends on the gain. So decision trees weigh the
+//! shape of the spectrum, how far it rises over its floor, how unusual that is in this room, and how it develops. With two capsules they
+//! also see what these do not share. The level only sets the strength of a detected breath.
 //!
 //! Invariants: the detector is causal; its state does not depend on how samples are cut into blocks; the speed is exactly 0
 //! unless the reason is [`Reason::Blow`].
@@ -17,7 +17,7 @@
 //! minutes only, from which speech cannot be restored. After construction it never allocates.
 //!
 //! The main types are [`BlowDetector`] (one microphone, with one or two capsules), [`BlowEstimate`] (speed, confidence,
-//! [`Reason`], levels) and [`BlowSettings`] (sensitivity, network, rules).
+//! [`Reason`], levels) and [`BlowSettings`] (sensitivity, model, rules).
 //!
 //! ```
 //! use soffio_detector::{BlowDetector, Reason};
@@ -38,10 +38,11 @@ mod decision;
 mod echo_estimate;
 pub mod features;
 pub mod frontend;
-pub mod network;
+pub mod model;
 pub mod noise_floor;
 mod resample;
 pub mod spectrum;
+pub mod trees;
 
 use std::sync::{Arc, LazyLock};
 
@@ -50,7 +51,7 @@ use bands::{BANDS, RUMBLE, blend, power_to_db};
 use decision::Decision;
 pub use decision::Rules;
 use frontend::{Frame, Frontend, SILENCE_DBFS};
-use network::{Network, Output, State};
+use model::{Model, Output};
 use soffio_math::{db_to_amplitude, exp};
 
 /// The trained weights.
@@ -120,8 +121,8 @@ pub struct BlowSettings {
     /// Added to the microphone's level before it is converted to a speed, dB. It changes the strength of a breath, never its
     /// detection.
     pub sensitivity_db: f64,
-    /// The network. It is shared, since it is much larger than a detector's own state.
-    pub network: Arc<Network>,
+    /// The trained model. It is shared, since it is much larger than a detector's own state.
+    pub model: Arc<Model>,
     /// Rules that turn log-odds into a decision.
     pub rules: Rules,
 }
@@ -130,9 +131,9 @@ impl Default for BlowSettings {
     /// # Panics
     /// Never: a test reads the shipped weights.
     fn default() -> Self {
-        static NETWORK: LazyLock<Arc<Network>> =
-            LazyLock::new(|| Arc::new(Network::read(MODEL).expect("the shipped weights are readable")));
-        Self { sensitivity_db: 0.0, network: NETWORK.clone(), rules: Rules::default() }
+        static SHIPPED: LazyLock<Arc<Model>> =
+            LazyLock::new(|| Arc::new(Model::read(MODEL).expect("the shipped weights are readable")));
+        Self { sensitivity_db: 0.0, model: SHIPPED.clone(), rules: Rules::default() }
     }
 }
 
@@ -144,7 +145,6 @@ pub struct BlowDetector {
     settings: BlowSettings,
     estimate: BlowEstimate,
     frontend: Frontend,
-    state: State,
     decision: Decision,
     agc: AgcDetector,
     /// Smoothed logarithm of the speed at the capsule.
@@ -164,7 +164,6 @@ impl BlowDetector {
             settings,
             estimate: BlowEstimate { level_dbfs: SILENCE_DBFS, floor_dbfs: SILENCE_DBFS, ..Default::default() },
             frontend: Frontend::new(sample_rate),
-            state: [0.0; network::CELLS],
             decision: Decision::default(),
             agc: AgcDetector::default(),
             log_speed: 0.0,
@@ -203,7 +202,7 @@ impl BlowDetector {
         self.estimate
     }
 
-    /// Outputs of the network for the last frame.
+    /// Outputs of the model for the last frame.
     pub fn output(&self) -> Output {
         self.output
     }
@@ -217,8 +216,8 @@ impl BlowDetector {
         let floor = &self.frontend.features.floor;
         let rumble = floor.level[RUMBLE].iter().map(|db| db_to_amplitude(2.0 * db)).sum();
         self.estimate.floor_dbfs = power_to_db(rumble);
-        let levels = measured.levels.map(|level| level + self.settings.sensitivity_db);
-        self.output = self.settings.network.push(&mut self.state, &measured.inputs, &levels);
+        let loudest = measured.levels.iter().copied().fold(SILENCE_DBFS, f64::max);
+        self.output = self.settings.model.output(&measured.inputs, loudest + self.settings.sensitivity_db);
         if frame.zero {
             // An unplugged microphone sends exact zeros, and so does one with a noise gate.
             return self.stop(Reason::NoSignal);

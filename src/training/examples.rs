@@ -3,14 +3,14 @@
 //! A frame is a breath where its air is fast enough at the capsule and its sound stands out from everything else, and no breath where there
 //! is no air. Between the two it is unknown, and the frame does not count.
 
-use super::generator::{self, Scene};
-use super::gradient::Example;
-use soffio_detector::bands::BANDS;
-use soffio_detector::features;
+use super::generator::Scene;
+use super::parallel::parallel;
+use super::{boosting, generator};
+use soffio_detector::features::{COUNT, Inputs};
 use soffio_detector::frontend::Frontend;
 use soffio_detector::spectrum::FRAME_S;
 use soffio_math::ln;
-use soffio_math::noise::{Random, hash_words};
+use soffio_math::noise::hash_words;
 
 /// Slowest air at the capsule that the detector is asked to hear, m/s.
 const SLOWEST_AIR_M_S: f32 = 0.35;
@@ -23,8 +23,10 @@ const AFTER_S: f64 = 0.1;
 /// Time after which a detector notices a breath and stops learning the echo, s.
 const NOTICED_S: f64 = 0.12;
 
-/// Largest half of the colour of a band: 2.4 dB of the shape's 30 dB, twice.
-const COLOUR: f64 = 0.08;
+/// Every how many frames becomes an example: neighbours say nearly the same.
+const EVERY: usize = 4;
+/// Scenes that the bins are measured on.
+const BINNED: u64 = 40;
 
 /// Channels that a scene is measured with. The first one is nearer to the jet's axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,10 +40,23 @@ pub enum Channels {
     },
 }
 
-/// Examples of a scene.
+/// One frame with its targets.
+#[derive(Clone, Debug)]
+pub struct Example {
+    /// Inputs of the model.
+    pub inputs: Inputs,
+    /// Level of the loudest band, dB of full scale.
+    pub level: f32,
+    /// It is a breath.
+    pub breath: bool,
+    /// Natural logarithm of the air's speed at the capsule, m/s.
+    pub log_air: f32,
+}
+
+/// Every [`EVERY`]th frame of a scene that counts.
 pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
     let mut frontend = Frontend::new(scene.rate);
-    let mut examples = Vec::with_capacity((scene.air.len() as f64 * 0.001 / FRAME_S) as usize);
+    let (mut examples, mut frames) = (Vec::new(), 0);
     let (mut breathing_s, mut since_s) = (0.0, f64::INFINITY);
     let per_ms = scene.rate as usize / 1000;
     let (first, second) = match capsules {
@@ -61,38 +76,53 @@ pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
         since_s = if air > 0.0 { 0.0 } else { since_s + FRAME_S };
         let Some(measured) = frame.measured else { continue };
         let counts = if breath { measured.rise_db >= LEAST_RISE_DB } else { since_s > AFTER_S };
-        examples.push(Example {
-            inputs: measured.inputs,
-            levels: measured.levels.map(|level| level as f32),
-            target: f32::from(u8::from(breath)),
-            weight: if counts && !frontend.features.floor.is_settling() { 1.0 } else { 0.0 },
-            log_air: ln(f64::from(air.max(0.1))) as f32,
-            first: examples.is_empty(),
-        });
+        frames += 1;
+        if counts && frames % EVERY == 0 && !frontend.features.floor.is_settling() {
+            let level = measured.levels.iter().copied().fold(f64::NEG_INFINITY, f64::max) as f32;
+            examples.push(Example { inputs: measured.inputs, level, breath, log_air: ln(f64::from(air.max(0.1))) as f32 });
+        }
     }
     examples
 }
 
-/// Colours the shape of a scene's spectra, as microphones do in ways that nobody lists.
-fn colour(examples: &mut [Example], random: &mut Random) {
-    let offsets: [f32; BANDS] = std::array::from_fn(|_| (COLOUR * (random.signed() + random.signed())) as f32);
-    for shape in examples.iter_mut().map(|example| &mut example.inputs[features::SHAPE]) {
-        shape.iter_mut().zip(offsets).for_each(|(x, offset)| *x = (*x + offset).clamp(-1.0, 0.0));
-    }
+/// Examples of many scenes: bins of the inputs, and levels and speeds beside them.
+#[derive(Clone, Debug)]
+pub struct Collection {
+    /// Inputs and whether each is a breath.
+    pub breaths: boosting::Examples,
+    /// Edges of the bins of each input.
+    pub edges: Vec<Vec<f32>>,
+    /// Level of the loudest band of each example, dB of full scale.
+    pub levels: Vec<f32>,
+    /// Natural logarithm of the air's speed of each example, m/s.
+    pub log_air: Vec<f32>,
 }
 
-/// Examples of a range of scenes, each through one capsule and through two.
-pub fn of_seed(seed: u64, scenes: std::ops::Range<u64>) -> Vec<Vec<Example>> {
-    let count = (scenes.end - scenes.start) as usize;
-    let both = super::parallel::parallel(count, |i| {
-        let scene = generator::scene(seed, scenes.start + i as u64);
-        let swapped = hash_words(&[seed, scenes.start + i as u64]).is_multiple_of(2);
-        let mut random = Random::new(hash_words(&[seed, scenes.start + i as u64, 3]));
-        [Channels::One, Channels::Two { swapped }].map(|capsules| {
-            let mut examples = of_scene(&scene, capsules);
-            colour(&mut examples, &mut random);
-            examples
-        })
+/// Examples of the first scenes of a seed, each through one capsule and through two.
+pub fn of_seed(seed: u64, scenes: u64) -> Collection {
+    let of = |index: u64| {
+        let scene = generator::scene(seed, index);
+        let swapped = hash_words(&[seed, index]).is_multiple_of(2);
+        [Channels::One, Channels::Two { swapped }].map(|capsules| of_scene(&scene, capsules)).concat()
+    };
+    let sample = parallel(scenes.min(BINNED) as usize, |i| of(i as u64)).concat();
+    let edges = parallel(COUNT, |input| boosting::edges(sample.iter().map(|example| example.inputs[input]).collect()));
+    let rows = parallel(scenes as usize, |i| {
+        let row = |example: Example| {
+            let bins: [u8; COUNT] = std::array::from_fn(|k| boosting::bin(&edges[k], example.inputs[k]));
+            (bins, example.level, example.breath, example.log_air)
+        };
+        of(i as u64).into_iter().map(row).collect::<Vec<_>>()
     });
-    both.into_iter().flatten().collect()
+    let rows: Vec<_> = rows.concat();
+    Collection {
+        breaths: boosting::Examples {
+            columns: (0..COUNT).map(|k| rows.iter().map(|row| row.0[k]).collect()).collect(),
+            targets: rows.iter().map(|row| f32::from(u8::from(row.2))).collect(),
+            weights: vec![1.0; rows.len()],
+        },
+        edges,
+        levels: rows.iter().map(|row| row.1).collect(),
+        log_air: rows.iter().map(|row| row.3).collect(),
+    }
 }

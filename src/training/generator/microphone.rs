@@ -70,10 +70,10 @@ struct GainControl {
 
 /// Draws a device.
 pub(super) fn draw(random: &mut Random) -> Microphone {
-    // Three in ten are telephones, which cut off all below the voice.
-    let phone = random.chance(0.3);
+    // Four in ten are telephones, which cut off all below the voice.
+    let phone = random.chance(0.4);
     let corner = match random.unit() {
-        _ if phone => random.range(100.0, 250.0),
+        _ if phone => random.range(90.0, 250.0),
         u if u < 0.33 => random.range(10.0, 30.0),
         u if u < 0.78 => random.range(30.0, 80.0),
         _ => random.range(80.0, 200.0),

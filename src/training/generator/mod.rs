@@ -99,7 +99,7 @@ pub fn scene(seed: u64, index: u64) -> Scene {
     let (room, port, device) = (stage::draw_room(random), recipe::port(random), microphone::draw(random));
     let mut stage = Stage::new(seconds, random.word(), room, port);
     recipe::background(&mut stage, random, kind, seconds);
-    let played = if random.chance(0.15) { recipe::kiosk_output(&mut stage, random, seconds) } else { Vec::new() };
+    let played = if random.chance(0.25) { recipe::kiosk_output(&mut stage, random, seconds) } else { Vec::new() };
     let mut breaths = Vec::new();
     let with_breaths = random.chance(0.55);
     let share = random.range(0.35, 0.9);

@@ -193,7 +193,7 @@ pub(super) fn chimes(random: &mut Random, seconds: f64) -> Vec<f32> {
     const BAR: [f64; 4] = [1.0, 2.757, 5.404, 8.933];
     let mut wave = vec![0.0_f32; (seconds * RATE) as usize];
     let pace = random.log_range(0.4, 5.0);
-    let low = random.log_range(200.0, 900.0);
+    let low = random.log_range(50.0, 900.0);
     let decay = random.log_range(0.2, 3.0);
     let mut t = 0.0;
     while t < seconds {

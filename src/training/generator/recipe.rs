@@ -1,7 +1,7 @@
 //! Recipes: which breaths, sounds, draughts and devices make up a scene.
 //!
 //! A scene has one recipe, which sets what happens most. Over it, independently, lie breaths (55 % of the scenes), a
-//! draught (25 %), the kiosk's own sound (15 %) and faults of the device (8 %). Events follow each other with pauses of
+//! draught (25 %), the kiosk's own sound (25 %) and faults of the device (8 %). Events follow each other with pauses of
 //! 0.6 to 20 s.
 
 use soffio_math::noise::Random;
@@ -10,10 +10,10 @@ use super::BreathLabel;
 use super::breath::{self, Aim, Manner};
 use super::draught;
 use super::filter::{Biquad, highpass};
-use super::noise::{Draw, Drift, RATE};
+use super::noise::{Draw, Drift, RATE, Shape};
 use super::stage::{Stage, add};
 use super::turbulence::Port;
-use super::{jet, machines, music, objects, people};
+use super::{jet, machines, music, objects, people, voice};
 
 /// Air on the axis with which visitors are content, m/s.
 const NOTICED: f64 = 0.7;
@@ -25,7 +25,7 @@ pub(super) const KINDS: [(&str, usize); 12] = [
     ("crowd", 9),
     ("near speech", 11),
     ("touch", 11),
-    ("impacts", 8),
+    ("impacts", 12),
     ("music", 7),
     ("machines", 7),
     ("outdoor", 4),
@@ -227,12 +227,44 @@ fn moved(random: &mut Random, aim: &Aim) -> Aim {
     Aim { off, distance: aim.distance * (1.0 + 4.0 * shift()).clamp(0.7, 1.3), ..*aim }
 }
 
+/// The kiosk's sound of wind: noise in one or two broad bands, in gusts that begin within a tenth to half a second.
+fn gusts(stage: &mut Stage, random: &mut Random, seconds: f64) -> Vec<f32> {
+    let bands: [(f64, f64); 2] =
+        [(random.log_range(40.0, 150.0), random.log_range(150.0, 600.0)), (200.0, random.log_range(600.0, 3000.0))];
+    let mut wave = vec![0.0; (seconds * RATE) as usize];
+    for (low, high) in bands {
+        let share = random.range(0.0, 1.0) as f32;
+        let shape = Shape::corners(&[(0.5 * low, -12.0), (low, 0.0), (high, 0.0), (4.0 * high, -24.0)]);
+        wave.iter_mut().zip(stage.noise(random, seconds, &shape)).for_each(|(x, noise)| *x += share * noise);
+    }
+    let mut at = 0.0;
+    while at < seconds {
+        let (length, rise, flutter) = (random.log_range(0.4, 5.0), random.range(0.05, 0.5), Drift::new(random, 40.0));
+        let pause = random.log_range(0.1, 5.0);
+        let range = |t: f64| ((t * RATE) as usize).min((seconds * RATE) as usize);
+        for (i, x) in wave[range(at)..range(at + length)].iter_mut().enumerate() {
+            let t = i as f64 / RATE;
+            let swell = (t / rise).min((length - t) / (0.3 * length)).clamp(0.0, 1.0);
+            *x *= (swell * swell * (1.0 + 0.25 * flutter.at(6.0 * t)).max(0.0)) as f32;
+        }
+        wave[range(at + length)..range(at + length + pause)].fill(0.0);
+        at += length + pause;
+    }
+    voice::normalise(&mut wave);
+    wave
+}
+
 /// The kiosk's own sound: the samples that it plays, full scale 1. What the capsules hear of it is added to the stage.
 pub(super) fn kiosk_output(stage: &mut Stage, random: &mut Random, seconds: f64) -> Vec<f32> {
     let mut played =
-        if random.chance(0.6) { objects::chimes(random, seconds) } else { music::piece(stage, random, seconds) };
+        if random.chance(0.7) { objects::chimes(random, seconds) } else { music::piece(stage, random, seconds) };
+    let loud = random.log_range(0.01, 0.3);
+    if random.chance(0.7) {
+        let (wind, share) = (gusts(stage, random, seconds), random.range(0.3, 3.0) as f32);
+        played.iter_mut().zip(wind).for_each(|(x, gust)| *x += share * gust);
+    }
     let waver = Drift::new(random, seconds);
-    let (loud, pauses) = (random.log_range(0.01, 0.15), random.range(-1.5, 0.5));
+    let pauses = random.range(-2.5, 0.5);
     let every = (0.01 * RATE) as usize;
     for (i, part) in played.chunks_mut(every).enumerate() {
         let gain = ((waver.at(0.005 * i as f64) - pauses).clamp(0.0, 1.0) * loud) as f32;
