@@ -159,6 +159,9 @@ pub struct Breath {
     /// Added to the microphone's level before it becomes a speed, dB. It scales the strength of a breath and has no
     /// effect on its detection. `soffio doctor --blow` proposes it.
     pub sensitivity_db: f64,
+    /// How much surer than usual the detector must be of a breath, as the natural logarithm of odds: more of it means fewer false
+    /// triggers and more missed breaths. `soffio breath fit` proposes it from recordings of the house.
+    pub threshold: f64,
     /// Distance of the lips before the sculpture, m.
     pub distance_m: f64,
     /// Diameter of the blowing lips, m.
@@ -172,6 +175,7 @@ impl Default for Breath {
             profile: settings.profile,
             gain: settings.breath_gain,
             sensitivity_db: settings.sensitivity_db,
+            threshold: settings.threshold,
             distance_m: settings.distance,
             lip_diameter_m: settings.lip_diameter,
         }
@@ -477,6 +481,7 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "screen.software_fps", low: 2.0, high: 60.0, unit: "1/s" },
     Limit { key: "breath.gain", low: 0.1, high: 10.0, unit: "1" },
     Limit { key: "breath.sensitivity_db", low: -40.0, high: 40.0, unit: "dB" },
+    Limit { key: "breath.threshold", low: -3.0, high: 4.0, unit: "1" },
     Limit { key: "breath.distance_m", low: 0.1, high: 2.0, unit: "m" },
     Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },
@@ -570,6 +575,7 @@ impl Config {
             profile: self.breath.profile,
             breath_gain: self.breath.gain,
             sensitivity_db: self.breath.sensitivity_db,
+            threshold: self.breath.threshold,
             distance: self.breath.distance_m,
             lip_diameter: self.breath.lip_diameter_m,
             seed,

@@ -25,8 +25,8 @@
 //! has. Each input is followed by its running means over [`MEANS_S`]: how a sound has developed.
 
 use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, blend, power_to_db, powers};
-use super::noise_floor::Floor;
 use super::coherence::Coherence;
+use super::noise_floor::Floor;
 use super::spectrum::{FRAME_S, Framer, Power, TRANSFORM};
 use soffio_math::{PI, cos, db_to_amplitude, tanh};
 
@@ -87,6 +87,9 @@ pub struct Features {
     pub floor: Floor<BANDS>,
     /// Floor of the incoherent power of the wide bands.
     pub incoherent_floor: Floor<WIDE>,
+    /// Levels of the last frame, of bands and of incoherent power, dB of full scale.
+    levels: [f64; BANDS],
+    incoherent_levels: [f64; WIDE],
     coherence: Coherence,
     /// cos(2π k τ / N) for each bin k of the harmonics, and each lag τ.
     cosines: Vec<[f32; LAGS]>,
@@ -117,6 +120,8 @@ impl Features {
         Self {
             floor: Floor::new(),
             incoherent_floor: Floor::new(),
+            levels: [0.0; BANDS],
+            incoherent_levels: [0.0; WIDE],
             coherence: Coherence::new(),
             cosines: HARMONICS
                 .map(|k| {
@@ -136,6 +141,7 @@ impl Features {
             power_to_db((power[b] - echo_power[b]).max(RESIDUE * echo_power[b]).max(0.0) + MIN_POWER)
         });
         self.floor.learn(&levels);
+        self.levels = levels;
         let mut now = [0.0; NOW];
         let rises: [f64; BANDS] = std::array::from_fn(|b| self.floor.rise(b, levels[b]));
         let strangeness = std::array::from_fn(|b| rises[b] / self.floor.spread(b).max(MIN_SPREAD_DB));
@@ -179,12 +185,19 @@ impl Features {
         *inputs
     }
 
+    /// Takes the last frame as the noise floor.
+    pub fn adopt_floors(&mut self) {
+        self.floor.adopt(&self.levels);
+        self.incoherent_floor.adopt(&self.incoherent_levels);
+    }
+
     /// Inputs of two capsules.
     fn compare(&mut self, framer: &Framer, echo: &[f64; WIDE], inputs: &mut [f32]) {
         let parts = self.coherence.push(&framer.channels, framer.scale);
         let levels: [f64; WIDE] =
             std::array::from_fn(|b| power_to_db((parts[b].0 - RESIDUE * echo[b]).max(0.0) + MIN_POWER));
         self.incoherent_floor.learn(&levels);
+        self.incoherent_levels = levels;
         for b in 0..WIDE {
             let rise = self.incoherent_floor.rise(b, levels[b]);
             inputs[b] = compressed(rise, RISE_DB);

@@ -96,6 +96,11 @@ impl Frontend {
         }
     }
 
+    /// Samples of two capsules arrive.
+    pub(super) fn is_stereo(&self) -> bool {
+        self.stereo
+    }
+
     /// Takes one sample of each capsule and of the loudspeaker; returns a frame where one is ready. The echo is not learnt where
     /// `learn_echo` is false, so that a breath is not taken for the kiosk's response to it.
     pub fn push(&mut self, left: f32, right: Option<f32>, played: f32, learn_echo: bool) -> Option<Frame> {

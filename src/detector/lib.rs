@@ -17,7 +17,7 @@
 //! minutes only, from which speech cannot be restored. After construction it never allocates.
 //!
 //! The main types are [`BlowDetector`] (one microphone, with one or two capsules), [`BlowEstimate`] (speed, confidence,
-//! [`Reason`], levels) and [`BlowSettings`] (sensitivity, model, rules).
+//! [`Reason`], levels) and [`BlowSettings`] (sensitivity, threshold, model, rules).
 //!
 //! ```
 //! use soffio_detector::{BlowDetector, Reason};
@@ -63,8 +63,12 @@ const HARDEST_M_S: f64 = 17.0;
 const FAINTEST_M_S: f64 = 0.5;
 /// Speed at the lips relative to that at the capsule: lips 10 mm wide at 20 cm, 20/(6 · 1) (Pope, *Turbulent Flows*, section 5.1).
 const LIPS_RATIO: f64 = 3.3;
+/// Growth of the logarithm of the speed with the level, nats a decibel: the pressure of turbulence goes with the square of the speed.
+const LOG_SPEED_PER_DB: f64 = std::f64::consts::LN_10 / 40.0;
 /// Time constant of the speed, s: the scatter of turbulence is averaged, a swelling breath is not.
 const SPEED_S: f64 = 0.08;
+/// Longest breath, s: what lasts longer is a fan or a draught, and becomes the noise floor.
+const LONGEST_S: f64 = 12.0;
 /// Smallest rise of a breath over the noise floor, dB.
 const MIN_RISE_DB: f64 = 5.0;
 /// Periodicity from which a sound counts as a voice.
@@ -121,6 +125,8 @@ pub struct BlowSettings {
     /// Added to the microphone's level before it is converted to a speed, dB. It changes the strength of a breath, never its
     /// detection.
     pub sensitivity_db: f64,
+    /// How much surer than usual the detector must be of a breath: subtracted from the log-odds, nats.
+    pub threshold: f64,
     /// The trained model. It is shared, since it is much larger than a detector's own state.
     pub model: Arc<Model>,
     /// Rules that turn log-odds into a decision.
@@ -133,7 +139,7 @@ impl Default for BlowSettings {
     fn default() -> Self {
         static SHIPPED: LazyLock<Arc<Model>> =
             LazyLock::new(|| Arc::new(Model::read(MODEL).expect("the shipped weights are readable")));
-        Self { sensitivity_db: 0.0, model: SHIPPED.clone(), rules: Rules::default() }
+        Self { sensitivity_db: 0.0, threshold: 0.0, model: SHIPPED.clone(), rules: Rules::default() }
     }
 }
 
@@ -171,9 +177,9 @@ impl BlowDetector {
         }
     }
 
-    /// Sets [`BlowSettings::sensitivity_db`] and keeps everything learnt so far.
-    pub fn set_sensitivity(&mut self, db: f64) {
-        self.settings.sensitivity_db = db;
+    /// Sets [`BlowSettings::sensitivity_db`] and [`BlowSettings::threshold`], and keeps everything learnt so far.
+    pub fn set(&mut self, sensitivity_db: f64, threshold: f64) {
+        (self.settings.sensitivity_db, self.settings.threshold) = (sensitivity_db, threshold);
     }
 
     /// Takes mono `samples` (full scale ±1). `reference` is the loudspeaker's signal over the same time (mono, same rate and
@@ -217,15 +223,22 @@ impl BlowDetector {
         let rumble = floor.level[RUMBLE].iter().map(|db| db_to_amplitude(2.0 * db)).sum();
         self.estimate.floor_dbfs = power_to_db(rumble);
         let loudest = measured.levels.iter().copied().fold(SILENCE_DBFS, f64::max);
-        self.output = self.settings.model.output(&measured.inputs, loudest + self.settings.sensitivity_db);
+        self.output = self.settings.model.output(&measured.inputs, loudest);
         if frame.zero {
             // An unplugged microphone sends exact zeros, and so does one with a noise gate.
             return self.stop(Reason::NoSignal);
         }
-        // The first floor and the echo of the first sound are unknown, so no breath begins then; one that has begun may continue.
+        // No breath begins while the first floor or the echo of the first sound is unknown, nor from what is mostly echo; one that
+        // has begun may continue.
         let settling = floor.is_settling();
-        let unknown_echo = !self.decision.blowing && self.frontend.echo.is_learning();
-        self.decision.push(&self.settings.rules, (!settling && !unknown_echo).then_some(self.output.log_odds));
+        let mostly_echo = measured.echo > MOSTLY_ECHO || self.frontend.echo.is_learning();
+        let capsules = if self.frontend.is_stereo() { 2 } else { 1 };
+        let may_begin = !settling && (self.decision.blowing || !mostly_echo);
+        let log_odds = may_begin.then_some(self.output.log_odds - self.settings.threshold);
+        self.decision.push(&self.settings.rules, log_odds, capsules);
+        if self.decision.seconds > LONGEST_S {
+            self.frontend.features.adopt_floors();
+        }
         let highest = &measured.levels[BANDS - 2..];
         self.agc.push(self.decision.blowing, highest[0].max(highest[1]));
         self.estimate.gain_control = self.agc.is_detected();
@@ -233,7 +246,7 @@ impl BlowDetector {
         let reason = match () {
             () if self.decision.blowing => Reason::Blow,
             () if settling => Reason::Settling,
-            () if unknown_echo || measured.echo > MOSTLY_ECHO => Reason::LoudspeakerEcho,
+            () if mostly_echo => Reason::LoudspeakerEcho,
             () if self.decision.progress > 0.0 => Reason::Pending,
             () if measured.rise_db < MIN_RISE_DB => Reason::Quiet,
             () if measured.periodicity > VOICED => Reason::Voiced,
@@ -241,7 +254,8 @@ impl BlowDetector {
         };
         self.estimate.reason = reason;
         self.estimate.speed = if self.decision.blowing {
-            (LIPS_RATIO * exp(self.log_speed)).clamp(FAINTEST_M_S, HARDEST_M_S)
+            let calibration = LOG_SPEED_PER_DB * self.settings.sensitivity_db;
+            (LIPS_RATIO * exp(self.log_speed + calibration)).clamp(FAINTEST_M_S, HARDEST_M_S)
         } else {
             0.0
         };
@@ -254,4 +268,3 @@ impl BlowDetector {
         self.estimate = BlowEstimate { speed: 0.0, confidence: 0.0, reason, ..self.estimate };
     }
 }
-

@@ -113,11 +113,8 @@ mod tests {
         // Input 1 decides the first question, input 0 all others, with thresholds that grow along the heap.
         let mut inputs = [0; SPLITS];
         inputs[0] = 1;
-        let tree = Tree {
-            inputs,
-            thresholds: std::array::from_fn(|i| i as f32),
-            leaves: std::array::from_fn(|i| i as f32),
-        };
+        let tree =
+            Tree { inputs, thresholds: std::array::from_fn(|i| i as f32), leaves: std::array::from_fn(|i| i as f32) };
         let trees = Trees { base: 0.5, trees: vec![tree.clone(), tree] };
         assert_eq!(trees.sum(&[-1.0, 0.0]), 0.5, "no at every question");
         assert_eq!(trees.sum(&[100.0, 1.0]), 0.5 + 2.0 * 15.0, "yes at every question");

@@ -46,6 +46,7 @@ pub mod events;
 pub mod export;
 pub mod feed;
 pub mod frames;
+pub mod house;
 pub mod load;
 pub mod loudness;
 #[cfg(feature = "pictures")]

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::pointer_grabs::PointerGrab;
+use soffio_detector::BlowSettings;
 use soffio_exhibit::{Exhibit, Motion};
 use soffio_multibody::procedural::PositionSolver;
 
@@ -68,6 +69,9 @@ pub struct Settings {
     pub profile: Profile,
     /// Added to the microphone's level before it becomes a speed, dB.
     pub sensitivity_db: f64,
+    /// How much surer than usual the detector must be of a breath, nats.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub threshold: f64,
     /// Multiplies the force of the breath on top of the profile's own gain.
     pub breath_gain: f64,
     /// Distance of the lips from the target plane, m.
@@ -85,11 +89,24 @@ pub struct Settings {
     pub clock: Option<f64>,
 }
 
+impl Settings {
+    /// Settings of the breath detector.
+    pub fn detector(&self) -> BlowSettings {
+        BlowSettings { sensitivity_db: self.sensitivity_db, threshold: self.threshold, ..BlowSettings::default() }
+    }
+}
+
+/// For settings that a recorded run leaves out where they are 0.
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
+}
+
 impl Default for Settings {
     fn default() -> Self {
         Self {
             profile: Profile::Gallery,
             sensitivity_db: 0.0,
+            threshold: 0.0,
             breath_gain: 1.0,
             distance: 0.5,
             lip_diameter: 0.01,

@@ -85,16 +85,16 @@ pub struct BreathSource {
 }
 
 impl BreathSource {
-    /// All sources silent; `sensitivity_db` is added to the microphone's level.
-    pub fn new(sensitivity_db: f64) -> Self {
-        Self { settings: BlowSettings { sensitivity_db, ..BlowSettings::default() }, ..Self::default() }
+    /// All sources silent; `settings` are the detector's.
+    pub fn new(settings: BlowSettings) -> Self {
+        Self { settings, ..Self::default() }
     }
 
     /// Takes over the detector of another source, which has adapted to the noise floor and to the kiosk's own sound.
     pub fn adopt_detector(&mut self, before: &mut Self) {
         self.detector = before.detector.take();
         if let Some(running) = &mut self.detector {
-            running.detector.set_sensitivity(self.settings.sensitivity_db);
+            running.detector.set(self.settings.sensitivity_db, self.settings.threshold);
         }
     }
 
@@ -153,10 +153,10 @@ pub(crate) struct BreathState {
 }
 
 impl BreathState {
-    /// No breath; `sensitivity_db` is the detector's.
-    pub fn new(sensitivity_db: f64) -> Self {
+    /// No breath; `settings` are the detector's.
+    pub fn new(settings: BlowSettings) -> Self {
         Self {
-            source: BreathSource::new(sensitivity_db),
+            source: BreathSource::new(settings),
             onset: OnsetCompensation::default(),
             speed: 0.0,
             estimate: BlowEstimate::default(),

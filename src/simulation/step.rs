@@ -58,7 +58,7 @@ impl Simulation {
         let camera = Camera::new(&exhibit);
         Self {
             clock: StepClock::default(),
-            breath: BreathState::new(settings.sensitivity_db),
+            breath: BreathState::new(settings.detector()),
             aim_assist: AimAssist::new(&exhibit, &mut start_dynamics(&exhibit, &settings)),
             air: Air::new(&exhibit, settings.seed),
             motion: Motion::new(&exhibit, &settings),

@@ -94,14 +94,7 @@ pub fn bin(edges: &[f32], x: f32) -> u8 {
 }
 
 /// Grows `count` trees. `edges` are those of each input; `rising` says which inputs never lower the sum.
-pub fn grown(
-    examples: &Examples,
-    edges: &[Vec<f32>],
-    rising: &[bool],
-    loss: Loss,
-    count: usize,
-    seed: u64,
-) -> Trees {
+pub fn grown(examples: &Examples, edges: &[Vec<f32>], rising: &[bool], loss: Loss, count: usize, seed: u64) -> Trees {
     let length = examples.targets.len();
     let total: f64 = examples.weights.iter().map(|w| f64::from(*w)).sum();
     let mean = examples.targets.iter().zip(&examples.weights).map(|(t, w)| f64::from(t * w)).sum::<f64>() / total;
@@ -161,7 +154,8 @@ fn tree(examples: &Examples, edges: &[Vec<f32>], rising: &[bool], slopes: &[[f32
         let mut next_values = Vec::with_capacity(2 << level);
         let mut bin_of = vec![(0, usize::MAX); 1 << level];
         for node in 0..1 << level {
-            let split = best.iter().filter_map(|splits| splits[node]).reduce(|a, b| if b.gain > a.gain { b } else { a });
+            let split =
+                best.iter().filter_map(|splits| splits[node]).reduce(|a, b| if b.gain > a.gain { b } else { a });
             let (least, most) = bounds[node];
             let Some(split) = split else {
                 // All answers are no.

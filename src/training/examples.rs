@@ -23,8 +23,8 @@ const AFTER_S: f64 = 0.1;
 /// Time after which a detector notices a breath and stops learning the echo, s.
 const NOTICED_S: f64 = 0.12;
 
-/// Every how many frames becomes an example: neighbours say nearly the same.
-const EVERY: usize = 4;
+/// Every how many frames becomes an example, of breath and of other sounds: neighbours say nearly the same.
+const EVERY: (usize, usize) = (3, 9);
 /// Scenes that the bins are measured on.
 const BINNED: u64 = 40;
 
@@ -53,7 +53,7 @@ pub struct Example {
     pub log_air: f32,
 }
 
-/// Every [`EVERY`]th frame of a scene that counts.
+/// Frames of a scene that count, one in [`EVERY`].
 pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
     let mut frontend = Frontend::new(scene.rate);
     let (mut examples, mut frames) = (Vec::new(), 0);
@@ -77,9 +77,15 @@ pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
         let Some(measured) = frame.measured else { continue };
         let counts = if breath { measured.rise_db >= LEAST_RISE_DB } else { since_s > AFTER_S };
         frames += 1;
-        if counts && frames % EVERY == 0 && !frontend.features.floor.is_settling() {
+        let every = if breath { EVERY.0 } else { EVERY.1 };
+        if counts && frames % every == 0 && !frontend.features.floor.is_settling() {
             let level = measured.levels.iter().copied().fold(f64::NEG_INFINITY, f64::max) as f32;
-            examples.push(Example { inputs: measured.inputs, level, breath, log_air: ln(f64::from(air.max(0.1))) as f32 });
+            examples.push(Example {
+                inputs: measured.inputs,
+                level,
+                breath,
+                log_air: ln(f64::from(air.max(0.1))) as f32,
+            });
         }
     }
     examples
@@ -119,7 +125,7 @@ pub fn of_seed(seed: u64, scenes: u64) -> Collection {
         breaths: boosting::Examples {
             columns: (0..COUNT).map(|k| rows.iter().map(|row| row.0[k]).collect()).collect(),
             targets: rows.iter().map(|row| f32::from(u8::from(row.2))).collect(),
-            weights: vec![1.0; rows.len()],
+            weights: rows.iter().map(|row| if row.2 { 1.0 } else { EVERY.1 as f32 / EVERY.0 as f32 }).collect(),
         },
         edges,
         levels: rows.iter().map(|row| row.1).collect(),

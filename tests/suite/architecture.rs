@@ -15,7 +15,7 @@ const LAYERS: &[&[&str]] = &[
     &["offline"],
     &["kiosk"],
     &["rehearsal"],
-    &["examination", "training", "commands"],
+    &["examination", "training", "recorder", "commands"],
 ];
 
 /// Everything left of here is the core: pure and deterministic.
@@ -53,7 +53,7 @@ const FORBIDDEN: &[(&str, &str)] = &[
 ];
 
 /// Crates that are no part of the program.
-const TOOLS: &[&str] = &["training", "examination", "forge"];
+const TOOLS: &[&str] = &["training", "examination", "forge", "record-breaths", "recorder"];
 
 /// Files are read by the exhibit's loader alone.
 const FILES: &[&str] = &["std::fs", "File::open", "std::net"];

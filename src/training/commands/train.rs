@@ -15,13 +15,13 @@ pub struct Args {
     #[arg(long, value_name = "FILE.safetensors")]
     out: Option<PathBuf>,
     /// Number of scenes.
-    #[arg(long, default_value_t = 600)]
+    #[arg(long, default_value_t = 900)]
     scenes: u64,
     /// Trees of the log-odds.
-    #[arg(long, default_value_t = 200)]
+    #[arg(long, default_value_t = 300)]
     trees: usize,
     /// Trees of the speed.
-    #[arg(long, default_value_t = 60)]
+    #[arg(long, default_value_t = 120)]
     speed_trees: usize,
     /// Seed of everything random.
     #[arg(long, default_value_t = 1)]

@@ -137,6 +137,33 @@ pub(super) fn slam(stage: &mut Stage, random: &mut Random, at: f64) {
     }
 }
 
+/// A door two rooms away, a blast, something heavy on the floor above: bursts of low noise that die away, one or many.
+pub(super) fn boom(stage: &mut Stage, random: &mut Random, at: f64) {
+    let (metres, db) = (random.log_range(1.0, 20.0), random.range(58.0, 104.0));
+    let (count, spread) = (random.pick(&[1, 1, 1, 2, 3, 6, 12]), random.range(0.3, 5.0));
+    let solid = random.chance(0.4).then(|| random.range(3.0, 25.0));
+    for i in 0..count {
+        let (low, high) = (random.log_range(15.0, 60.0), random.log_range(60.0, 700.0));
+        let shape = Shape::corners(&[(0.5 * low, -12.0), (low, 0.0), (high.max(low), -3.0), (5.0 * high, -32.0)]);
+        let (rise, fall) = (random.log_range(0.002, 0.2), random.log_range(0.03, 0.8));
+        let mut wave = stage.noise(random, rise + 6.0 * fall, &shape);
+        let gains: Vec<f64> = (0..((rise + 6.0 * fall) / STEP) as usize)
+            .map(|k| {
+                let t = k as f64 * STEP;
+                (t / rise).min(1.0) * exp(-(t - rise).max(0.0) / fall)
+            })
+            .collect();
+        modulate(&mut wave, &gains);
+        normalise(&mut wave);
+        let from = at + if i == 0 { 0.0 } else { spread * random.unit() };
+        let loud = db - random.range(0.0, 12.0);
+        stage.sound(from, &wave, loud, metres);
+        if let Some(less) = solid {
+            stage.contact(from, &wave, loud - less, random.range(0.8, 1.25));
+        }
+    }
+}
+
 /// A thing falls and bounces: ever faster and weaker knocks of the same modes.
 pub(super) fn drop_thing(stage: &mut Stage, random: &mut Random, at: f64) {
     let low = random.log_range(150.0, 2000.0);

@@ -211,6 +211,8 @@ pub(super) fn footsteps(stage: &mut Stage, random: &mut Random, at: f64, seconds
     let (period, hard) = (random.range(0.35, 0.7), random.unit());
     let (db, mut metres) = (random.range(40.0, 62.0), random.range(1.0, 6.0));
     let nearer = random.range(-0.9, 0.9);
+    // A floor that carries the steps into the stand.
+    let floor = random.chance(0.4).then(|| random.range(-10.0, 20.0));
     let mut t = 0.0;
     while t < seconds {
         let centre = 60.0 + 900.0 * hard * random.range(0.7, 1.4);
@@ -218,6 +220,9 @@ pub(super) fn footsteps(stage: &mut Stage, random: &mut Random, at: f64, seconds
         let fall = 0.012 + 0.03 * (1.0 - hard);
         let wave = burst(stage, random, &shape, 0.2, 0.002, fall);
         stage.sound(at + t, &wave, db + random.range(-3.0, 3.0), metres);
+        if let Some(more) = floor {
+            stage.contact(at + t, &wave, db + more, 1.0);
+        }
         metres = (metres - nearer * period).max(0.5);
         t += period * random.range(0.92, 1.08);
     }

@@ -30,7 +30,7 @@ pub(super) const KINDS: [(&str, usize); 12] = [
     ("machines", 7),
     ("outdoor", 4),
     ("fan", 4),
-    ("rumble", 5),
+    ("rumble", 8),
     ("coughs", 5),
 ];
 
@@ -121,8 +121,9 @@ pub(super) fn event(stage: &mut Stage, random: &mut Random, kind: &str, at: f64)
             2.5
         }
         "impacts" => {
-            match random.whole(0, 6) {
-                0 | 1 => objects::slam(stage, random, at),
+            match random.whole(0, 8) {
+                0 => objects::slam(stage, random, at),
+                1 | 7 | 8 => objects::boom(stage, random, at),
                 2 => objects::drop_thing(stage, random, at),
                 3 => objects::chair(stage, random, at),
                 4 => objects::knocks(stage, random, at),
@@ -139,9 +140,13 @@ pub(super) fn event(stage: &mut Stage, random: &mut Random, kind: &str, at: f64)
             machines::motor(stage, random, at, seconds);
             seconds
         }
-        "rumble" => {
+        "rumble" if random.chance(0.6) => {
             machines::rumble(stage, random, at);
             8.0
+        }
+        "rumble" => {
+            objects::boom(stage, random, at);
+            3.0
         }
         "coughs" => {
             let metres = random.log_range(0.5, 4.0);
@@ -168,7 +173,8 @@ fn ordinary(stage: &mut Stage, random: &mut Random, at: f64) -> f64 {
         7 | 8 => people::footsteps(stage, random, at, seconds),
         9 => people::cough(stage, random, at, metres),
         10 => people::sigh(stage, random, at, metres),
-        11 => objects::slam(stage, random, at),
+        11 if random.chance(0.5) => objects::slam(stage, random, at),
+        11 => objects::boom(stage, random, at),
         12 => objects::knocks(stage, random, at),
         13 => people::applause(stage, random, at, seconds),
         14 => objects::clock(stage, random, at, seconds),

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use soffio_soundscape::breath::Breath;
 use soffio_exhibit::{Attract as Script, AttractAction, AttractStep};
 use soffio_kiosk::attract::script::AttractMode;
 use soffio_simulation::Command;
+use soffio_soundscape::breath::Breath;
 
 /// A script of one second: a text, then half a second of a breath that nobody could take for one.
 fn script() -> Script {

@@ -1,8 +1,8 @@
 //! `soffio doctor`: what it says of a room and of a breath.
 
 use soffio::commands::doctor::{Health, judge_blow, judge_room};
-use soffio_soundscape::breath::Breath;
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
+use soffio_soundscape::breath::Breath;
 
 const RATE: u32 = 48_000;
 

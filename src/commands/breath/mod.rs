@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
+mod fit;
+
 use super::failure::{Failure, Outcome};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
 use soffio_offline::feed::WavFeed;
@@ -17,7 +19,10 @@ use soffio_simulation::STEPS_PER_SECOND;
 ///
 /// Example: soffio breath exhibits/steel-fish/breaths/*.wav
 #[derive(clap::Args, Debug, Default)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub struct Args {
+    #[command(subcommand)]
+    command: Option<Command>,
     /// Recordings: PCM 8–32 bit or float, 8–192 kHz.
     #[arg(required = true, value_name = "FILE.wav")]
     files: Vec<PathBuf>,
@@ -27,6 +32,12 @@ pub struct Args {
     /// With --csv: a fourth column with the reason of the decision.
     #[arg(long, requires = "csv")]
     reasons: bool,
+}
+
+/// What `soffio breath` does other than judge recordings.
+#[derive(clap::Subcommand, Debug)]
+enum Command {
+    Fit(fit::Args),
 }
 
 /// Summary of one recording.
@@ -50,6 +61,9 @@ pub struct Summary {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
+    if let Some(Command::Fit(args)) = args.command {
+        return fit::run(&args);
+    }
     if args.csv && args.files.len() != 1 {
         let message = format!("breath: --csv takes one file, {} were given. Name one.", args.files.len());
         return Err(Failure { code: 2, message });
