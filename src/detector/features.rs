@@ -116,7 +116,7 @@ pub struct Frame {
 
 impl Features {
     /// An extractor that knows no floor yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             floor: Floor::new(),
             incoherent_floor: Floor::new(),

@@ -46,7 +46,7 @@ pub struct Floor<const N: usize> {
 
 impl<const N: usize> Floor<N> {
     /// Nothing is known yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { level: [0.0; N], spread: [FIRST_SPREAD.0 * FIRST_SPREAD.0; N], seconds: 0.0 }
     }
 

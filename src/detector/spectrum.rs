@@ -78,7 +78,7 @@ impl std::fmt::Debug for Framer {
 
 impl Framer {
     /// Plans the transform and the window.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let transform = forward(TRANSFORM);
         let window: [f64; WINDOW] = std::array::from_fn(|i| {
             let t = i as f64 + 0.5 - RISING as f64;

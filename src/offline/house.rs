@@ -54,7 +54,7 @@ pub fn read(folder: &Path) -> Result<Vec<(Label, Recording)>, String> {
             path.display()
         )
     })?;
-    let recorded = |label: Label| match wav::read(&folder.join(&label.file)) {
+    let recorded = |label: Label| match wav::read(folder.join(&label.file)) {
         Ok(recording) => Ok((label, recording)),
         Err(error) => Err(error.to_string()),
     };

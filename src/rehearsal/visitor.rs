@@ -139,7 +139,7 @@ impl Breath {
     pub fn sound(&self, capsules: usize, spacing: f64) -> Vec<Vec<f64>> {
         // The visitor stands in front of one of both capsules.
         let spacing = if capsules > 1 { spacing } else { 0.0 };
-        let beside = if self.seed % 2 == 0 { 0.5 } else { -0.5 } * spacing;
+        let beside = if self.seed.is_multiple_of(2) { 0.5 } else { -0.5 } * spacing;
         let recipe = Recipe { spacing, beside, ..self.recipe };
         recipe.air(RATE, self.seed).pressure
     }

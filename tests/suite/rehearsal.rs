@@ -206,7 +206,7 @@ fn a_detector_alone_runs_over_a_day_and_one_with_an_infinite_threshold_detects_n
     let never = report(SHORT, &BlowSettings { rules: never, ..BlowSettings::default() });
     assert_eq!((never.all.missed, never.detected_after_s, never.false_triggers_s.len()), (short.all.breaths, None, 0));
     // A detector with a threshold that everything reaches has false triggers.
-    let always = Rules { drift: -9.0, on: 0.02, ..Rules::default() };
+    let always = Rules { drift: [-9.0; 2], on: 0.02, ..Rules::default() };
     let always = report(SHORT, &BlowSettings { rules: always, ..BlowSettings::default() });
     assert!(!always.false_triggers_s.is_empty(), "{always}");
 }
