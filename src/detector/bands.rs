@@ -8,6 +8,8 @@ use soffio_math::{exp, log10};
 
 /// Edges of the bands, bins of 15.6 Hz: 16, 47, 78, 109, 156, 219, 313, 438, 625, 875, 1250, 1781, 2531, 3406 Hz.
 pub const EDGES: [usize; BANDS + 1] = [1, 3, 5, 7, 10, 14, 20, 28, 40, 56, 80, 114, 162, 218];
+/// Distance of two bins, Hz.
+pub const BIN_HZ: f64 = 15.625;
 /// Number of bands.
 pub const BANDS: usize = 13;
 /// Bands below 219 Hz, in which turbulence at a capsule is strongest.

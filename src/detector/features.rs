@@ -22,7 +22,7 @@
 //! Rise, strangeness and decorrelation are evidence in one direction: more of them never speaks against a breath ([`is_rising`]).
 //!
 //! Decibels are compressed, tanh(r/R): 25 dB over the floor say no more than 60, which only a microphone that is silent in between
-//! has. Each input is followed by its running means over [`MEANS_S`]: how a sound has developed.
+//! has. Each input is followed by its running means over 0.1, 0.4 and 1.5 s: how a sound has developed.
 
 use super::bands::{BANDS, EDGES, RUMBLE, WIDE, WIDE_EDGES, blend, power_to_db, powers};
 use super::coherence::Coherence;
@@ -183,6 +183,11 @@ impl Features {
             means.iter_mut().zip(now).for_each(|(mean, x)| *mean += weight * (x - *mean));
         }
         *inputs
+    }
+
+    /// Levels of the last frame, dB of full scale.
+    pub fn levels(&self) -> [f64; BANDS] {
+        self.levels
     }
 
     /// Takes the last frame as the noise floor.

@@ -208,6 +208,11 @@ impl BlowDetector {
         self.estimate
     }
 
+    /// Levels of the last frame in the bands between [`bands::EDGES`], without the echo, dB of full scale.
+    pub fn band_levels(&self) -> [f64; BANDS] {
+        self.frontend.features.levels()
+    }
+
     /// Outputs of the model for the last frame.
     pub fn output(&self) -> Output {
         self.output

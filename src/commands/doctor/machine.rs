@@ -3,9 +3,10 @@
 use std::time::{Duration, Instant};
 
 use super::finding::{Finding, Health};
-use super::microphone::{judge_blow, judge_room};
+use super::microphone::{judge_blow, judge_low_tones, judge_room};
 use indicatif::{ProgressBar, ProgressStyle};
 use soffio_config::{Config, remedies};
+use soffio_detector::bands;
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Reason};
 use soffio_devices::audio::{AudioIo, DeviceState, MicrophoneSamples};
 use soffio_kiosk::fleet::persisted;
@@ -152,9 +153,13 @@ fn sound(config: &Config, blow: bool, self_test: bool) -> Vec<Finding> {
         }
         if blow {
             let sensitivity_db = config.breath.sensitivity_db;
-            let mut detector = BlowDetector::with_settings(rate, BlowSettings { sensitivity_db, ..Default::default() });
+            let threshold = config.breath.threshold;
+            let settings = BlowSettings { sensitivity_db, threshold, ..Default::default() };
+            let mut detector = BlowDetector::with_settings(rate, settings);
             samples.share(0, 1, rate).feed(&mut detector);
-            findings.push(judge_blow(&listen(&mut audio, &mut detector), sensitivity_db).of_device());
+            let (steps, levels) = listen(&mut audio, &mut detector);
+            findings.push(judge_blow(&steps, sensitivity_db).of_device());
+            findings.extend(levels.and_then(|levels| judge_low_tones(&levels)).map(Finding::of_device));
         }
     }
     findings
@@ -212,8 +217,8 @@ fn second_microphone(microphones: usize) -> Finding {
     }
 }
 
-/// Asks for breaths and measures them, with a meter on the terminal.
-fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate> {
+/// Asks for breaths and measures them, with a meter on the terminal. Also returns the mean level of each band during them.
+fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> (Vec<BlowEstimate>, Option<[f64; bands::BANDS]>) {
     eprintln!(
         "Blow at the microphone from where visitors stand, as they would: {BREATHS} times, a second or two each, with \
          a pause of two seconds between."
@@ -222,6 +227,7 @@ fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate>
     let meter = ProgressBar::new(METER)
         .with_style(ProgressStyle::with_template("[{bar:40}] {msg}").unwrap_or_else(|_| ProgressStyle::default_bar()));
     let (mut steps, mut samples): (Vec<BlowEstimate>, _) = (Vec::new(), MicrophoneSamples::default());
+    let (mut levels, mut blown) = ([0.0; bands::BANDS], 0.0);
     let (mut breaths, mut quiet_since, mut clips) = (0, Instant::now(), 0);
     // Until a moment after the last breath, or until nobody blows any more.
     while began.elapsed() < PATIENCE && (breaths < BREATHS || quiet_since.elapsed() < AFTER) {
@@ -233,6 +239,8 @@ fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate>
         if step.reason == Reason::Blow {
             breaths += usize::from(before.reason != Reason::Blow);
             quiet_since = Instant::now();
+            blown += 1.0;
+            levels.iter_mut().zip(detector.band_levels()).for_each(|(mean, level)| *mean += (level - *mean) / blown);
         }
         clips += usize::from(step.clipping && !before.clipping);
         let BlowEstimate { level_dbfs, floor_dbfs, reason, .. } = step;
@@ -243,5 +251,5 @@ fn listen(audio: &mut AudioIo, detector: &mut BlowDetector) -> Vec<BlowEstimate>
         steps.push(step);
     }
     meter.finish_and_clear();
-    steps
+    (steps, (blown > 0.0).then_some(levels))
 }

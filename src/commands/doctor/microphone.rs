@@ -2,8 +2,9 @@
 
 use super::finding::{Finding, Health};
 use soffio_config::remedies::{self, NORMAL_M_S};
+use soffio_detector::bands::{BANDS, BIN_HZ, EDGES};
 use soffio_detector::{BlowDetector, BlowEstimate, Reason};
-use soffio_math::amplitude_to_db;
+use soffio_math::{amplitude_to_db, log10};
 
 /// Judges a microphone by a second of sound without a breath.
 pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
@@ -57,6 +58,25 @@ pub fn judge_room(samples: &[f32], sample_rate: u32) -> Finding {
         return Finding::new(WHAT, Health::Warn, found, remedies::LOUD);
     }
     Finding::new(WHAT, Health::Ok, found, "")
+}
+
+/// Names a microphone that cuts off low tones, by the mean level of each band during breaths, dB of full scale. Air at a capsule has a
+/// flat spectrum below its corner, so low bands that are weaker were cut off. `None` where it cuts off no more than rumble.
+pub fn judge_low_tones(levels: &[f64; BANDS]) -> Option<Finding> {
+    /// Weaker than the strongest band by so much a hertz: cut off.
+    const CUT_DB: f64 = 10.0;
+    /// A high-pass up to here leaves the most of a breath, Hz.
+    const HARMLESS_HZ: f64 = 75.0;
+    let density = |band: usize| levels[band] - 10.0 * log10((EDGES[band + 1] - EDGES[band]) as f64);
+    let strongest = (0..BANDS).map(density).fold(f64::NEG_INFINITY, f64::max);
+    let first = (0..BANDS).find(|band| density(*band) > strongest - CUT_DB)?;
+    let from_hz = EDGES[first] as f64 * BIN_HZ;
+    let found = format!(
+        "a breath has its lowest tones at {from_hz:.0} Hz: the microphone or its driver cuts off what is below"
+    );
+    let remedy = "switch off its low cut (\"HPF\", \"voice\"), or use another microphone; until then visitors must blow from \
+                  within 25 cm";
+    (from_hz > HARMLESS_HZ).then(|| Finding::new("low tones", Health::Warn, found, remedy))
 }
 
 /// Factor within which a speed is normal: breaths differ by as much.

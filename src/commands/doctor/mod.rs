@@ -12,7 +12,7 @@ mod machine;
 mod microphone;
 
 pub use finding::{Finding, Health};
-pub use microphone::{judge_blow, judge_room};
+pub use microphone::{judge_blow, judge_low_tones, judge_room};
 
 /// Checks this machine and names remedies: screen, graphics, microphone, loudspeaker, fonts, files.
 #[derive(clap::Args, Debug, Default)]

@@ -1,8 +1,10 @@
 //! `soffio doctor`: what it says of a room and of a breath.
 
-use soffio::commands::doctor::{Health, judge_blow, judge_room};
+use soffio::commands::doctor::{Health, judge_blow, judge_low_tones, judge_room};
+use soffio_detector::bands::BANDS;
 use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
 use soffio_soundscape::breath::Breath;
+use soffio_soundscape::microphone::Microphone;
 
 const RATE: u32 = 48_000;
 
@@ -60,4 +62,31 @@ fn the_doctor_proposes_a_sensitivity_that_makes_a_normal_breath_normal() {
     turned.iter_mut().for_each(|step| step.gain_control = true);
     let turned = judge_blow(&turned, 0.0);
     assert!(turned.health == Health::Warn && turned.remedy.contains("switch off automatic gain"), "{turned:?}");
+}
+
+#[test]
+fn the_doctor_names_a_microphone_that_cuts_off_low_tones() {
+    let found = |high_pass_hz: f64, order: usize| {
+        let microphone = Microphone { high_pass_hz, order, ..Microphone::default() };
+        let breath = Breath { speed: 9.0, hold: 2.0, microphone, ..Breath::default() };
+        let mut detector = BlowDetector::new(RATE);
+        let (mut levels, mut count) = ([0.0; BANDS], 0.0);
+        for block in breath.recorded(RATE, 7).chunks(RATE as usize / 50) {
+            detector.push(block, &[]);
+            if detector.estimate().speed > 0.0 {
+                count += 1.0;
+                levels
+                    .iter_mut()
+                    .zip(detector.band_levels())
+                    .for_each(|(mean, level)| *mean += (level - *mean) / count);
+            }
+        }
+        assert!(count > 0.0, "{high_pass_hz} Hz, order {order}: no breath was heard");
+        judge_low_tones(&levels)
+    };
+    assert!(found(20.0, 1).is_none());
+    let finding = found(150.0, 3).expect("a finding");
+    let hz: f64 =
+        finding.found.split(" Hz").next().and_then(|s| s.rsplit(' ').next()?.parse().ok()).expect("a frequency");
+    assert!((75.0..225.0).contains(&hz) && finding.remedy.contains("low cut"), "{finding:?}");
 }
