@@ -53,7 +53,7 @@ pub struct Example {
     pub log_air: f32,
 }
 
-/// Frames of a scene that count, one in [`EVERY`].
+/// Frames of a scene that count, one in three of breath and one in nine of others.
 pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
     let mut frontend = Frontend::new(scene.rate);
     let (mut examples, mut frames) = (Vec::new(), 0);

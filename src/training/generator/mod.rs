@@ -2,26 +2,26 @@
 //!
 //! # What a breath is at a microphone
 //!
-//! A breath leaves the lips at U₀, becomes a turbulent jet ([`jet`]), and needs 0.1 to 0.9 s to the capsule. There its
-//! eddies press on the port as they are carried past ([`turbulence`]). So the signal is a noise with a corner that
+//! A breath leaves the lips at U₀, becomes a turbulent jet (`jet`), and needs 0.1 to 0.9 s to the capsule. There its
+//! eddies press on the port as they are carried past (`turbulence`). So the signal is a noise with a corner that
 //! follows the local speed of the air, f_c = 0.75 U/(2π L) with L ≈ 0.085 x. At 50 cm it is below 60 Hz. The pressure is
 //! ∝ U², so it falls by 22 dB from 10 to 36 cm. Two capsules hear the same slow gusts and different small eddies.
-//! The lips' hiss is a sound: it is there before the air, and both capsules hear it alike ([`breath`]).
+//! The lips' hiss is a sound: it is there before the air, and both capsules hear it alike (`breath`).
 //!
 //! # What is no breath
 //!
-//! Draughts and wind are air too, with other scales and courses ([`draught`]). Near speech blows on the capsule with its
-//! consonants ([`people`]). Hands, knocks and slams shake it ([`objects`]). There are machines and weather
-//! ([`machines`]), music ([`music`]) and the kiosk's own sound ([`recipe`]), in a room ([`stage`]).
+//! Draughts and wind are air too, with other scales and courses (`draught`). Near speech blows on the capsule with its
+//! consonants (`people`). Hands, knocks and slams shake it (`objects`). There are machines and weather
+//! (`machines`), music (`music`) and the kiosk's own sound (`recipe`), in a room (`stage`).
 //!
 //! # Levels
 //!
-//! All sources are in pascal at the capsules, so their ratios are those of nature. A device follows ([`microphone`]).
+//! All sources are in pascal at the capsules, so their ratios are those of nature. A device follows (`microphone`).
 //!
 //! # Targets
 //!
 //! `air` is the mean speed without turbulence. `over_db` compares the air's pressure alone, without the hiss, with all
-//! the rest ([`labels`]). The first capsule is never farther from the jet's axis than the second, so both hold for one
+//! the rest (`labels`). The first capsule is never farther from the jet's axis than the second, so both hold for one
 //! capsule and for two. Training on two capsules should swap them at random.
 //!
 //! It shares no code with the generator of the validation scenes. Each scene depends on its seed and index alone.
