@@ -160,7 +160,7 @@ pub struct Breath {
     /// effect on its detection. `soffio doctor --blow` proposes it.
     pub sensitivity_db: f64,
     /// How much surer than usual the detector must be of a breath, as the natural logarithm of odds: more of it means fewer false
-    /// triggers and more missed breaths. `soffio breath fit` proposes it from recordings of the house.
+    /// triggers and more missed breaths. `soffio breath fit` proposes it from recordings of the venue.
     pub threshold: f64,
     /// Distance of the lips before the sculpture, m.
     pub distance_m: f64,

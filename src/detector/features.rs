@@ -9,7 +9,7 @@
 //! |---|---|
 //! | shape | level of each band relative to the loudest one |
 //! | excess | the same of the power over the noise floor: what is new in this room |
-//! | course | level of three regions relative to its recent peak, and to its mean: impacts jump and die away, a breath swells |
+//! | change | level of three regions relative to its recent peak, and to its mean: impacts jump and die away, a breath swells |
 //! | periodicity | largest autocorrelation at 80–400 Hz: voices and music |
 //! | echo | share of the loudspeaker's echo in the rumble |
 //! | rise | rise over the floor of the highest band, and means of the highest three and six |
@@ -33,28 +33,28 @@ use soffio_math::{PI, cos, db_to_amplitude, tanh};
 /// Values of one frame.
 const NOW: usize = STEREO + 1 + 3 * WIDE;
 /// Number of inputs: the values of the frame and their means.
-pub const COUNT: usize = NOW * (1 + MEANS_S.len());
+pub const COUNT: usize = NOW * (1 + AVERAGES_S.len());
 /// Inputs of the model for one frame.
 pub type Inputs = [f32; COUNT];
 
 /// Time constants of the running means, s: an attack, a puff, a breath.
-const MEANS_S: [f64; 3] = [0.1, 0.4, 1.5];
+const AVERAGES_S: [f64; 3] = [0.1, 0.4, 1.5];
 /// Where the groups of values begin.
 const EXCESS: usize = BANDS;
-const COURSE: usize = 2 * BANDS;
-const PERIODICITY: usize = COURSE + 2 * REGIONS.len();
+const CHANGE: usize = 2 * BANDS;
+const PERIODICITY: usize = CHANGE + 2 * REGIONS.len();
 const ECHO: usize = PERIODICITY + 1;
 const RISE: usize = ECHO + 1;
 const STRANGENESS: usize = RISE + TOP.len();
 const STEREO: usize = STRANGENESS + TOP.len();
-/// Bands of the regions whose course is followed: 16–219, 219–875 and 875–3406 Hz.
+/// Bands of the regions whose change is followed: 16–219, 219–875 and 875–3406 Hz.
 const REGIONS: [std::ops::Range<usize>; 3] = [0..5, 5..9, 9..13];
 /// Fall of the recent peak, dB/s.
 const PEAK_FALL_DB_S: f64 = 20.0;
 /// Time constant of the mean beside the recent peak, s.
-const COURSE_S: f64 = 0.1;
-/// R of the compression of a course, dB.
-const COURSE_DB: f64 = 15.0;
+const CHANGE_S: f64 = 0.1;
+/// R of the compression of a change, dB.
+const CHANGE_DB: f64 = 15.0;
 /// Numbers of highest bands whose rises are averaged.
 const TOP: [usize; 3] = [1, 3, 6];
 /// Power of the noise floor that is subtracted, over its mean: noise scatters by this much.
@@ -94,7 +94,7 @@ pub struct Features {
     /// cos(2π k τ / N) for each bin k of the harmonics, and each lag τ.
     cosines: Vec<[f32; LAGS]>,
     /// Recent peak and mean of the level of each region, dB of full scale; `None` before the first frame.
-    course: [Option<(f64, f64)>; REGIONS.len()],
+    change: [Option<(f64, f64)>; REGIONS.len()],
     /// The values of the last frame and their means, one after the other; `None` before the first frame.
     inputs: Option<Inputs>,
 }
@@ -129,7 +129,7 @@ impl Features {
                     std::array::from_fn(|lag| cos(turn(lag)) as f32)
                 })
                 .collect(),
-            course: [None; REGIONS.len()],
+            change: [None; REGIONS.len()],
             inputs: None,
         }
     }
@@ -151,14 +151,14 @@ impl Features {
             self.floor.level[b] + power_to_db((over - FLOOR_MARGIN).max(LEAST_EXCESS * over))
         });
         now[..EXCESS].copy_from_slice(&shape(&levels));
-        now[EXCESS..COURSE].copy_from_slice(&shape(&excess));
-        for (i, (course, bands)) in self.course.iter_mut().zip(REGIONS).enumerate() {
+        now[EXCESS..CHANGE].copy_from_slice(&shape(&excess));
+        for (i, (change, bands)) in self.change.iter_mut().zip(REGIONS).enumerate() {
             let level = power_to_db(levels[bands].iter().map(|db| db_to_amplitude(2.0 * db)).sum());
-            let (peak, mean) = course.unwrap_or((level, level));
-            let (peak, mean) = (level.max(peak - PEAK_FALL_DB_S * FRAME_S), mean + blend(COURSE_S) * (level - mean));
-            *course = Some((peak, mean));
-            now[COURSE + 2 * i] = compressed(level - peak, COURSE_DB);
-            now[COURSE + 2 * i + 1] = compressed(level - mean, COURSE_DB);
+            let (peak, mean) = change.unwrap_or((level, level));
+            let (peak, mean) = (level.max(peak - PEAK_FALL_DB_S * FRAME_S), mean + blend(CHANGE_S) * (level - mean));
+            *change = Some((peak, mean));
+            now[CHANGE + 2 * i] = compressed(level - peak, CHANGE_DB);
+            now[CHANGE + 2 * i + 1] = compressed(level - mean, CHANGE_DB);
         }
         let sum = |of: &[f64; BANDS]| of[RUMBLE].iter().sum::<f64>();
         let echo = (sum(&echo_power) / (sum(&power) + MIN_POWER)).min(1.0);
@@ -171,16 +171,16 @@ impl Features {
             self.compare(framer, &powers(echo_spectrum, &WIDE_EDGES), &mut now[STEREO + 1..]);
         }
         let rise_db = rises.into_iter().fold(0.0, f64::max);
-        Frame { inputs: self.with_means(&now), levels, rise_db, echo, periodicity }
+        Frame { inputs: self.with_averages(&now), levels, rise_db, echo, periodicity }
     }
 
     /// The values of a frame, followed by their running means.
-    fn with_means(&mut self, now: &[f32; NOW]) -> Inputs {
+    fn with_averages(&mut self, now: &[f32; NOW]) -> Inputs {
         let inputs = self.inputs.get_or_insert_with(|| std::array::from_fn(|i| now[i % NOW]));
         inputs[..NOW].copy_from_slice(now);
-        for (means, seconds) in inputs[NOW..].chunks_mut(NOW).zip(MEANS_S) {
+        for (averages, seconds) in inputs[NOW..].chunks_mut(NOW).zip(AVERAGES_S) {
             let weight = blend(seconds) as f32;
-            means.iter_mut().zip(now).for_each(|(mean, x)| *mean += weight * (x - *mean));
+            averages.iter_mut().zip(now).for_each(|(mean, x)| *mean += weight * (x - *mean));
         }
         *inputs
     }

@@ -46,7 +46,6 @@ pub mod events;
 pub mod export;
 pub mod feed;
 pub mod frames;
-pub mod house;
 pub mod load;
 pub mod loudness;
 #[cfg(feature = "pictures")]
@@ -56,6 +55,7 @@ pub mod scene;
 pub mod sound_page;
 pub mod soundtrack;
 pub mod trace;
+pub mod venue_recordings;
 #[cfg(feature = "pictures")]
 pub mod video;
 pub mod wav;

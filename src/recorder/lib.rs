@@ -1,4 +1,4 @@
-//! `soffio-record-breaths`: guides staff through ten breaths and two recordings of the room, to set the detector for their house.
+//! `soffio-record-breaths`: guides staff through ten breaths and two recordings of the room, to set the detector for their venue.
 //!
 //! It is a program of its own and not part of the kiosk, which has no code that writes microphone samples. It asks for consent first,
 //! and says what it writes. It writes WAV files and a table of distance, angle and group of age, and no names.

@@ -30,7 +30,7 @@ fn main() -> ExitCode {
     let loaded = Config::load(config.as_deref()).map_err(|error| error.to_string());
     let result = loaded.and_then(|loaded| {
         let mut microphone = Microphone::open(&loaded.config);
-        let plan = Plan { breaths, room_s: 60.0 * minutes };
+        let plan = Plan { breaths, ambient_s: 60.0 * minutes };
         guide(&folder, plan, &mut std::io::stdin().lock(), &mut std::io::stdout(), &mut |seconds| {
             microphone.record(seconds)
         })

@@ -3,7 +3,7 @@
 use std::io::{BufRead, Write};
 use std::path::Path;
 
-use soffio_offline::house::{self, Kind, Label};
+use soffio_offline::venue_recordings::{self, Kind, Label};
 use soffio_offline::wav;
 
 /// Length of the recording of a breath, s: the room for two seconds, then the breath.
@@ -24,7 +24,7 @@ pub struct Plan {
     /// Number of breaths.
     pub breaths: usize,
     /// Length of each recording of the room, s.
-    pub room_s: f64,
+    pub ambient_s: f64,
 }
 
 /// Guides through a session: asks on `out`, reads answers from `answers`, and writes recordings of `record` to the folder. The table is
@@ -54,7 +54,7 @@ pub fn guide(
          Put up a notice while the room is recorded. Does everybody who will be heard agree? (yes/no)",
         folder.display(),
         plan.breaths,
-        plan.room_s
+        plan.ambient_s
     ))?;
     if consent != "yes" {
         return Err("nothing was recorded".to_owned());
@@ -69,9 +69,9 @@ pub fn guide(
         wav::write_float(folder.join(&label.file), count as u16, recorded.sample_rate, &samples)
             .map_err(|error| error.to_string())?;
         labels.push(label);
-        house::write_labels(folder, &labels).map_err(|error| format!("{}: {error}", folder.display()))
+        venue_recordings::write_labels(folder, &labels).map_err(|error| format!("{}: {error}", folder.display()))
     };
-    let room = |file: &str, kind| Label {
+    let ambient = |file: &str, kind| Label {
         file: file.to_owned(),
         kind,
         distance_cm: None,
@@ -79,7 +79,7 @@ pub fn guide(
         age_group: String::new(),
     };
     ask("The empty room: be silent, with ventilation and loudspeakers as always. Press Enter to begin.")?;
-    keep(room("empty-room.wav", Kind::EmptyRoom), &record(plan.room_s)?)?;
+    keep(ambient("empty-room.wav", Kind::EmptyRoom), &record(plan.ambient_s)?)?;
     for number in 1..=plan.breaths {
         let question = format!(
             "Breath {number} of {}: distance from lips to microphone in cm, angle beside it in degrees, child, adult or old? \
@@ -102,7 +102,7 @@ pub fn guide(
         keep(label, &record(BREATH_S)?)?;
     }
     ask("The full room: come back when there are visitors, none of whom blows. Press Enter to begin.")?;
-    keep(room("full-room.wav", Kind::FullRoom), &record(plan.room_s)?)?;
+    keep(ambient("full-room.wav", Kind::FullRoom), &record(plan.ambient_s)?)?;
     ask(&format!("Done. `soffio breath fit {}` sets the detector. Press Enter to end.", folder.display()))?;
     Ok(())
 }
@@ -120,7 +120,7 @@ fn position(answer: &str) -> Option<(f64, f64, String)> {
 mod tests {
     use super::*;
 
-    const PLAN: Plan = Plan { breaths: 2, room_s: 3.0 };
+    const PLAN: Plan = Plan { breaths: 2, ambient_s: 3.0 };
 
     fn run(folder: &Path, answers: &str) -> (Result<(), String>, String) {
         let mut out = Vec::new();
@@ -146,7 +146,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (result, said) = run(folder.path(), "yes\n\nnear\n30 0 adult\n\n45 20 child\n\n\n\n");
         assert_eq!(result, Ok(()), "{said}");
-        let takes = house::read(folder.path()).expect("the table and its files");
+        let takes = venue_recordings::read(folder.path()).expect("the table and its files");
         let kinds: Vec<Kind> = takes.iter().map(|(label, _)| label.kind).collect();
         assert_eq!(kinds, [Kind::EmptyRoom, Kind::Breath, Kind::Breath, Kind::FullRoom]);
         assert_eq!((takes[2].0.distance_cm, takes[2].0.angle_deg), (Some(45.0), Some(20.0)));
@@ -159,6 +159,6 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let (result, _) = run(folder.path(), "yes\n\n30 0 adult\n\n");
         assert!(result.is_err());
-        assert_eq!(house::read(folder.path()).expect("a table").len(), 2);
+        assert_eq!(venue_recordings::read(folder.path()).expect("a table").len(), 2);
     }
 }

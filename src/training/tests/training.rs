@@ -2,7 +2,7 @@
 
 use soffio_training::{examples, model};
 
-/// Hash of the model that six trees learn from two scenes. Whoever changes the generator, the front end or the growth of trees changes
+/// Hash of the model that six trees learn from two scenes. A change of the generator, the front end or the growth of trees changes
 /// it: then train the shipped model again and renew this word.
 const EXPECTED: &str = "cdc6ad7b67fb4ac9";
 

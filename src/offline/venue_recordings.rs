@@ -1,4 +1,4 @@
-//! Recordings of a house: breaths and its room, as WAV files beside a table `labels.csv`.
+//! Recordings of a venue: breaths and its noise, as WAV files beside a table `labels.csv`.
 //!
 //! `soffio-record-breaths` makes such a folder, and `soffio breath fit` reads it. The table names no person.
 
