@@ -34,7 +34,7 @@ pub struct Args {
     /// Seed of visitors and sounds.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// The room: cabinet, gallery or hall.
+    /// The room: cabinet, gallery, hall or draughty-hall.
     #[arg(long, value_name = "NAME", default_value = "gallery", value_parser = clap::builder::PossibleValuesParser::new(ROOMS.map(|(name, ..)| name)))]
     room: String,
     /// Capsules of the microphone; the manual advises two.

@@ -17,9 +17,13 @@ use soffio_soundscape::RATE;
 use soffio_soundscape::microphone::pascals;
 use soffio_soundscape::rooms::Room;
 
-/// Rooms: name, size (m), mean absorption of the walls.
-pub const ROOMS: [(&str, [f64; 3], f64); 3] =
-    [("cabinet", [6.0, 5.0, 3.0], 0.30), ("gallery", [14.0, 9.0, 4.5], 0.20), ("hall", [25.0, 16.0, 6.0], 0.12)];
+/// Rooms: name, size (m), mean absorption of the walls, speed of the draught at the kiosk (m/s).
+pub const ROOMS: [(&str, [f64; 3], f64, f64); 4] = [
+    ("cabinet", [6.0, 5.0, 3.0], 0.30, 0.0),
+    ("gallery", [14.0, 9.0, 4.5], 0.20, 0.0),
+    ("hall", [25.0, 16.0, 6.0], 0.12, 0.0),
+    ("draughty-hall", [25.0, 16.0, 6.0], 0.12, 0.35),
+];
 /// Distance from loudspeaker to microphone, m: both stand at the kiosk.
 const AWAY_M: f64 = 0.6;
 /// Level of noise with an RMS of full scale at the microphone, dB of sound: the loudest that a site may set up.
@@ -33,7 +37,7 @@ const DRIVE: f64 = 0.8;
 
 /// The room of a name, with the kiosk in it; `None` for an unknown name.
 pub fn room(name: &str, random: &mut Random) -> Option<Room> {
-    let (_, size, absorption) = ROOMS.iter().find(|(known, ..)| *known == name)?;
+    let (_, size, absorption, _) = ROOMS.iter().find(|(known, ..)| *known == name)?;
     Some(Room::new(DVec3::from_array(*size), *absorption, random))
 }
 

@@ -79,7 +79,8 @@ pub(super) fn open_venue(rehearsal: &mut Rehearsal) -> Result<Venue, RehearsalEr
         gallery,
     );
     let crowd = std::mem::replace(&mut rehearsal.crowd, Crowd::Made);
-    let settings =
-        VenueSettings { seed: rehearsal.seed, day_s: 3600.0 * rehearsal.hours, capsules: rehearsal.capsules };
+    let draught_m_s = ROOMS.iter().find(|(name, ..)| *name == rehearsal.room).map_or(0.0, |(.., speed)| *speed);
+    let (seed, day_s, capsules) = (rehearsal.seed, 3600.0 * rehearsal.hours, rehearsal.capsules);
+    let settings = VenueSettings { seed, day_s, capsules, draught_m_s };
     Ok(Venue::new(scenario, echo, crowd, &settings))
 }

@@ -19,6 +19,7 @@ use soffio_math::noise::{Random, hash_words};
 use soffio_math::{PI, db_to_amplitude, exp};
 use soffio_offline::wav::Recording;
 use soffio_soundscape::RATE;
+use soffio_soundscape::draught::Draught;
 use soffio_soundscape::filters::{parted, white};
 use soffio_soundscape::microphone::{UNLIKE, resampled};
 use soffio_soundscape::rooms::ALIKE_HZ;
@@ -37,6 +38,8 @@ const CROWD_DB: (f64, f64) = (48.0, 18.0);
 const MINUTE_DB: f64 = 4.0;
 /// Ventilation and street, from a quiet venue to a busy one, dB of sound.
 const AIR_DB: (f64, f64) = (48.0, 60.0);
+/// Lengths of a draught's eddies, m: ISO 7730 and what it cites measure 0.05 to 0.5.
+const DRAUGHT_M: (f64, f64) = (0.05, 0.5);
 /// Noise of the microphone, dB of sound.
 const HISS_DB: f64 = 34.0;
 /// High-pass corners of a bare capsule, a gooseneck on a sound card, and a cheap microphone, Hz.
@@ -84,6 +87,8 @@ pub struct Venue {
     crowd: Arc<Crowd>,
     /// Length of the day, s.
     day_s: f64,
+    /// Mean speed of the draught at the microphone, m/s.
+    draught_m_s: f64,
     pieces: u64,
     sounds: Vec<Sound>,
     /// Meter of the signal-to-noise ratio of one breath.
@@ -102,12 +107,14 @@ pub struct VenueSettings {
     pub day_s: f64,
     /// Capsules of the microphone, 1 or 2.
     pub capsules: usize,
+    /// Mean speed of the draught at the microphone, m/s.
+    pub draught_m_s: f64,
 }
 
 impl Venue {
     /// A venue for one day in a scenario of one room.
     pub fn new(scenario: Scenario, echo: EchoPath, crowd: Crowd, settings: &VenueSettings) -> Self {
-        let VenueSettings { seed, day_s, capsules } = *settings;
+        let VenueSettings { seed, day_s, capsules, draught_m_s } = *settings;
         let mut random = Random::new(hash_words(&[seed, 0x686f_7573]));
         let corner = CORNERS_HZ[(random.unit() * CORNERS_HZ.len() as f64) as usize];
         let capsule = |number: usize| match number {
@@ -119,7 +126,19 @@ impl Venue {
         };
         let capsules = (0..capsules).map(capsule).collect();
         let (scenario, crowd, snr_meter) = (Arc::new(scenario), Arc::new(crowd), SnrMeter::default());
-        Self { scenario, seed, crowd, day_s, pieces: 0, sounds: Vec::new(), snr_meter, echo, capsules, sample: 0 }
+        Self {
+            scenario,
+            seed,
+            crowd,
+            day_s,
+            draught_m_s,
+            pieces: 0,
+            sounds: Vec::new(),
+            snr_meter,
+            echo,
+            capsules,
+            sample: 0,
+        }
     }
 
     /// The same venue from a piece of the crowd on, each of [`PIECE_S`]; `self` must be at its beginning.
@@ -215,6 +234,15 @@ impl Venue {
                 diffuse(recordings[(self.pieces % recordings.len() as u64) as usize].clone(), count)
             }
         };
+        if self.draught_m_s > 0.0 {
+            let length = random.range(DRAUGHT_M.0, DRAUGHT_M.1);
+            let spacing = if count > 1 { self.scenario.spacing() } else { 0.0 };
+            let draught = Draught::random(self.draught_m_s, length, spacing, &mut random);
+            let air = draught.pressure(PIECE_S + FADE_S, RATE, random.word());
+            for (piece, air) in piece.iter_mut().zip(air) {
+                piece.iter_mut().zip(air).for_each(|(y, x)| *y += x);
+            }
+        }
         for (capsule, piece) in self.capsules.iter_mut().zip(&mut piece) {
             capsule.append(std::mem::take(piece));
         }
