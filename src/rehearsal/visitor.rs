@@ -234,7 +234,8 @@ impl Visit {
                 breaths.push(breath);
                 end = breath.end();
                 if intent == Intent::TwoAtOnce {
-                    let onset = first + random.range(0.0, 0.6);
+                    // While the first breath lasts.
+                    let onset = first + random.range(0.0, 0.6_f64.min(breath.end() - first));
                     let other_child = random.unit() < 0.4;
                     let other = Breath::new(onset, other_child, random);
                     breaths.push(other);

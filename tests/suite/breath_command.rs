@@ -77,6 +77,9 @@ fn bad_files_are_refused_with_a_reason() {
 /// Largest difference of times, s: one step of 1/240 s and one frame of 8 ms.
 const STEP_S: f64 = 0.013;
 
+/// Longest time from the air at the capsule to its detection, s: nine in ten breaths must not wait longer.
+const LATENCY_S: f64 = 0.3;
+
 #[test]
 fn the_summary_matches_the_steps() {
     let (first, second) = (Breath::default(), Breath { speed: 13.0, hold: 0.8, ..Breath::default() });
@@ -88,9 +91,10 @@ fn the_summary_matches_the_steps() {
     let summary = breath::summarise("two.wav".into(), &steps);
     assert!(summary.blow);
     assert_eq!(summary.triggers, 2);
-    assert!(summary.onset_s.is_some_and(|t| t > first.lead_in && t < first.lead_in + 0.25), "{summary:?}");
-    let expected = first.attack + first.hold + second.attack + second.hold;
-    assert!((summary.seconds_blowing - expected).abs() < 0.5, "{summary:?}");
+    let [one, two] = [(first, 2), (second, 3)].map(|(breath, seed)| breath.label(0.0, &breath.speeds(seed)));
+    let (arrival, lasted) = (one.arrival, one.end - one.arrival + two.end - two.arrival);
+    assert!(summary.onset_s.is_some_and(|t| t > first.lead_in && t < arrival + LATENCY_S), "{arrival}, {summary:?}");
+    assert!((summary.seconds_blowing - lasted).abs() < 2.0 * LATENCY_S, "{lasted}, {summary:?}");
     assert!(summary.peak <= 17.0 && summary.mean > 1.0 && summary.mean <= summary.peak);
     let wind_from = steps.iter().find(|(_, e)| e.speed > 0.0).unwrap().0;
     assert!((wind_from - summary.onset_s.unwrap()).abs() < STEP_S);

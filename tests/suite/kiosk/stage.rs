@@ -118,7 +118,8 @@ fn the_ear_listens_on_while_another_work_comes_and_while_nobody_is_heard() {
 
 #[test]
 fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
-    let capsules = Breath { spacing: 0.05, ..Breath::default() }.recorded_by_both(RATE, 7);
+    // The visitor stands in front of the first capsule.
+    let capsules = Breath { spacing: 0.05, beside: -0.025, ..Breath::default() }.recorded_by_both(RATE, 7);
     let frames: Vec<f32> = capsules[0].iter().zip(&capsules[1]).flat_map(|(left, right)| [*left, *right]).collect();
     let file = tempfile::NamedTempFile::new().expect("a temporary file");
     wav::write_float(file.path(), 2, RATE, &frames).expect("it is written");
