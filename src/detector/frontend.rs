@@ -29,7 +29,7 @@ pub struct Frontend {
     pub(super) echo: Box<EchoEstimate>,
     /// Inputs of the network, and the floors.
     pub features: Features,
-    /// Samples of a second capsule have arrived.
+    /// Samples of a second capsule have arrived, which differ from those of the first.
     stereo: bool,
 }
 
@@ -96,7 +96,7 @@ impl Frontend {
         }
     }
 
-    /// Samples of two capsules arrive.
+    /// Two capsules are heard.
     pub(super) fn is_stereo(&self) -> bool {
         self.stereo
     }
@@ -107,7 +107,8 @@ impl Frontend {
         let first = self.input.push(left);
         let played = if played.is_finite() { f64::from(played.clamp(-1.0, 1.0)) } else { 0.0 };
         let second = right.map(|x| self.input.push(x));
-        self.stereo |= second.is_some();
+        // Many devices send one microphone on both channels: that is one capsule, whose two copies would be all sound and no air.
+        self.stereo |= second.is_some_and(|second| second != first);
         let reference = self.reference.push(played);
         let left = self.left.push(first);
         let right = if self.stereo { self.right.push(second.unwrap_or(first)) } else { left };

@@ -65,6 +65,19 @@ fn bad_numbers_are_a_fault_and_pass() {
 }
 
 #[test]
+fn one_microphone_on_both_channels_is_one_microphone() {
+    let samples = Breath::default().recorded(16_000, 8);
+    let mut detector = BlowDetector::new(16_000);
+    let both = samples.chunks(80).map(|block| {
+        detector.push_stereo(block, block, &[]);
+        (detector.estimate().speed, detector.estimate().reason)
+    });
+    let one = estimates(&samples, 16_000);
+    assert!(both.eq(one.iter().map(|(_, e)| (e.speed, e.reason))), "another speed or reason");
+    assert!(one.iter().any(|(_, e)| e.speed > 0.0), "a breath");
+}
+
+#[test]
 fn the_detector_never_allocates() {
     let samples = Breath::default().recorded(48_000, 13);
     let mut detector = BlowDetector::new(48_000);
