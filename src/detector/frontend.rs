@@ -96,6 +96,11 @@ impl Frontend {
         }
     }
 
+    /// The same front end, for two capsules that are known to be two. Otherwise the first sample that differs says so.
+    pub fn of_two_capsules(self) -> Self {
+        Self { stereo: true, ..self }
+    }
+
     /// Two capsules are heard.
     pub(super) fn is_stereo(&self) -> bool {
         self.stereo

@@ -55,7 +55,8 @@ pub struct Example {
 
 /// Frames of a scene that count, one in three of breath and one in nine of others.
 pub fn of_scene(scene: &Scene, capsules: Channels) -> Vec<Example> {
-    let mut frontend = Frontend::new(scene.rate);
+    let frontend = Frontend::new(scene.rate);
+    let mut frontend = if capsules == Channels::One { frontend } else { frontend.of_two_capsules() };
     let (mut examples, mut frames) = (Vec::new(), 0);
     let (mut breathing_s, mut since_s) = (0.0, f64::INFINITY);
     let per_ms = scene.rate as usize / 1000;
