@@ -6,6 +6,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::atomic_file::AtomicFile;
 use super::wav::{self, Recording};
 
 /// Name of the table in the folder.
@@ -61,12 +62,14 @@ pub fn read(folder: &Path) -> Result<Vec<(Label, Recording)>, String> {
     labels.into_iter().map(recorded).collect()
 }
 
-/// Writes the table anew.
+/// Writes the table in place of the one before, whole or not at all.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn write_labels(folder: &Path, labels: &[Label]) -> std::io::Result<()> {
-    let mut table = csv::Writer::from_path(folder.join(LABELS))?;
+    let file = AtomicFile::create(&folder.join(LABELS))?;
+    let mut table = csv::Writer::from_writer(file.reopen()?);
     labels.iter().try_for_each(|label| table.serialize(label))?;
-    table.flush()
+    table.flush()?;
+    file.finish()
 }

@@ -10,8 +10,8 @@ use super::session::Recorded;
 
 /// Time between two looks at the microphone.
 const LOOK: Duration = Duration::from_millis(20);
-/// Longest time until a microphone delivers samples.
-const OPENING: Duration = Duration::from_secs(10);
+/// Longest time without samples, at the beginning or when a device is unplugged.
+const SILENT: Duration = Duration::from_secs(10);
 
 /// An open microphone.
 pub struct Microphone(AudioIo);
@@ -25,13 +25,13 @@ impl Microphone {
     /// Records from now on.
     ///
     /// # Errors
-    /// No samples arrive.
+    /// No samples arrive, or no more.
     pub fn record(&mut self, seconds: f64) -> Result<Recorded, String> {
         let mut samples = MicrophoneSamples::default();
         // What waits was heard before.
         self.0.read_microphone(&mut samples);
         samples.clear();
-        let began = Instant::now();
+        let (mut last, mut count) = (Instant::now(), 0);
         let mut rate = None;
         loop {
             std::thread::sleep(LOOK);
@@ -40,7 +40,10 @@ impl Microphone {
             if samples.samples.len() >= wanted {
                 break;
             }
-            if samples.samples.is_empty() && began.elapsed() > OPENING {
+            if samples.samples.len() > count {
+                (last, count) = (Instant::now(), samples.samples.len());
+            }
+            if last.elapsed() > SILENT {
                 return Err(format!(
                     "no samples arrive: {}. `soffio devices` lists microphones.",
                     self.0.status().input
