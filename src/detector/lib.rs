@@ -50,6 +50,7 @@ use agc_detector::AgcDetector;
 use bands::{BANDS, RUMBLE, blend, power_to_db};
 use decision::Decision;
 pub use decision::Rules;
+pub use features::Room;
 use frontend::{Frame, Frontend, SILENCE_DBFS};
 use model::{Model, Output};
 use soffio_math::{db_to_amplitude, exp};
@@ -203,6 +204,16 @@ impl BlowDetector {
         }
     }
 
+    /// What has been learnt of the room.
+    pub fn room(&self) -> Room {
+        self.frontend.features.room()
+    }
+
+    /// Begins with what an earlier run has learnt of the room. Call it before the first sample.
+    pub fn recall(&mut self, room: &Room) {
+        self.frontend.features.recall(room);
+    }
+
     /// The current estimate.
     pub fn estimate(&self) -> BlowEstimate {
         self.estimate
@@ -244,8 +255,7 @@ impl BlowDetector {
         if self.decision.seconds > LONGEST_S {
             self.frontend.features.adopt_floors();
         }
-        let highest = &measured.levels[BANDS - 2..];
-        self.agc.push(self.decision.blowing, highest[0].max(highest[1]));
+        self.agc.push(self.decision.blowing, &measured.levels);
         self.estimate.gain_control = self.agc.is_detected();
         self.log_speed += blend(SPEED_S) * (self.output.log_speed - self.log_speed);
         let reason = match () {

@@ -42,12 +42,23 @@ pub struct Floor<const N: usize> {
     spread: [f64; N],
     /// Time that has been learnt, s.
     seconds: f64,
+    /// Time for which the spreads were learnt in an earlier run, s.
+    recalled_s: f64,
+}
+
+/// Spreads of the bands and how long they were learnt: what is worth keeping of a room.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spreads<const N: usize> {
+    /// s of each band, dB.
+    pub db: [f64; N],
+    /// Time in which they were learnt, s; at most τ_s.
+    pub seconds: f64,
 }
 
 impl<const N: usize> Floor<N> {
     /// Nothing is known yet.
     pub(crate) fn new() -> Self {
-        Self { level: [0.0; N], spread: [FIRST_SPREAD.0 * FIRST_SPREAD.0; N], seconds: 0.0 }
+        Self { level: [0.0; N], spread: [FIRST_SPREAD.0 * FIRST_SPREAD.0; N], seconds: 0.0, recalled_s: 0.0 }
     }
 
     /// True until a first floor is known.
@@ -59,7 +70,7 @@ impl<const N: usize> Floor<N> {
     pub fn learn(&mut self, levels: &[f64; N]) {
         self.seconds += FRAME_S;
         let first = FRAME_S / self.seconds;
-        let spread_weight = FRAME_S / (self.seconds + FIRST_SPREAD.1).min(SPREAD_S);
+        let spread_weight = FRAME_S / (self.recalled_s + self.seconds + FIRST_SPREAD.1).min(SPREAD_S);
         for ((floor, spread), level) in self.level.iter_mut().zip(&mut self.spread).zip(levels) {
             let rise = level - *floor;
             if self.seconds < FIRST_S {
@@ -85,6 +96,19 @@ impl<const N: usize> Floor<N> {
     /// s, dB.
     pub fn spread(&self, band: usize) -> f64 {
         self.spread[band].sqrt()
+    }
+
+    /// All spreads, and the time in which they were learnt.
+    pub fn spreads(&self) -> Spreads<N> {
+        Spreads { db: std::array::from_fn(|b| self.spread(b)), seconds: (self.recalled_s + self.seconds).min(SPREAD_S) }
+    }
+
+    /// Begins with the spreads of an earlier run; the level is learnt anew. Spreads that are no spreads change nothing.
+    pub fn recall(&mut self, spreads: &Spreads<N>) {
+        if spreads.seconds >= 0.0 && spreads.db.iter().all(|db| (0.0..=MOST_SPREAD_DB).contains(db)) {
+            self.spread = spreads.db.map(|db| db * db);
+            self.recalled_s = spreads.seconds.min(SPREAD_S);
+        }
     }
 }
 
@@ -118,5 +142,12 @@ mod tests {
         assert!((strange(&floor) - expected).abs() < 0.1, "in a still room: {}", strange(&floor));
         learn(&mut floor, 180.0, || if random.unit() < 0.3 { -45.0 } else { -60.0 });
         assert!(strange(&floor) < 2.2, "in a draught: {}", strange(&floor));
+        // Another run begins with what this one knows, and learns the level of another gain at once.
+        let mut next = Floor::new();
+        next.recall(&floor.spreads());
+        learn(&mut next, 1.0, || -40.0);
+        assert!((next.spread(0) - floor.spread(0)).abs() < 0.2 && (next.level[0] + 40.0).abs() < 0.1, "{next:?}");
+        next.recall(&Spreads { db: [f64::NAN], seconds: 60.0 });
+        assert!((next.spread(0) - floor.spread(0)).abs() < 0.2, "no number is no spread");
     }
 }

@@ -8,7 +8,7 @@
 use super::input::{Microphone, StepInput};
 use super::onset_compensation::OnsetCompensation;
 use super::rate::DT;
-use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings};
+use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Room};
 use soffio_math::exp;
 
 /// Source speed of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
@@ -74,6 +74,8 @@ struct Strength {
 pub struct BreathSource {
     settings: BlowSettings,
     detector: Option<RunningDetector>,
+    /// What the last detector knew of the room, for the next one; `None` before there was one.
+    room: Option<Room>,
     /// Speed of the hold, m/s.
     hold_speed: f64,
     /// Length of the present hold, s.
@@ -90,9 +92,19 @@ impl BreathSource {
         Self { settings, ..Self::default() }
     }
 
+    /// What is known of the room: of the running detector, else of the last one.
+    pub fn room(&self) -> Option<Room> {
+        self.detector.as_ref().map(|running| running.detector.room()).or(self.room)
+    }
+
+    /// Sets what an earlier run knew of the room, for the next detector.
+    pub fn recall(&mut self, room: Room) {
+        self.room = Some(room);
+    }
+
     /// Takes over the detector of another source, which has adapted to the noise floor and to the kiosk's own sound.
     pub fn adopt_detector(&mut self, before: &mut Self) {
-        self.detector = before.detector.take();
+        (self.detector, self.room) = (before.detector.take(), before.room);
         if let Some(running) = &mut self.detector {
             running.detector.set(self.settings.sensitivity_db, self.settings.threshold);
         }
@@ -122,15 +134,19 @@ impl BreathSource {
         (estimate.speed.max(self.hold_speed).max(self.controller_speed).max(commanded), estimate)
     }
 
-    /// Feeds the microphone to the detector. Without a microphone the detector is dropped: a new one adapts later.
+    /// Feeds the microphone to the detector. Without a microphone the detector is dropped, but for what it knows of the room: a new one
+    /// adapts later.
     fn detect(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
         let Some(microphone) = microphone else {
+            self.room = self.room();
             self.detector = None;
             return BlowEstimate::default();
         };
         let sample_rate = microphone.sample_rate;
         if self.detector.as_ref().is_none_or(|running| running.sample_rate != sample_rate) {
-            let detector = BlowDetector::with_settings(sample_rate, self.settings.clone());
+            let mut detector = BlowDetector::with_settings(sample_rate, self.settings.clone());
+            self.room = self.room();
+            self.room.iter().for_each(|room| detector.recall(room));
             self.detector = Some(RunningDetector { sample_rate, detector });
         }
         self.detector.as_mut().map_or_else(BlowEstimate::default, |running| {
@@ -166,6 +182,16 @@ impl BreathState {
     /// Takes over the detector of another breath.
     pub fn adopt_detector(&mut self, before: &mut Self) {
         self.source.adopt_detector(&mut before.source);
+    }
+
+    /// What is known of the room; `None` where there was no microphone yet.
+    pub fn room(&self) -> Option<Room> {
+        self.source.room()
+    }
+
+    /// Sets what an earlier run knew of the room.
+    pub fn recall(&mut self, room: Room) {
+        self.source.recall(room);
     }
 
     /// Sets or releases the commanded speed, m/s.
@@ -206,6 +232,23 @@ mod tests {
         }
         let beyond = StepInput { strength: 7.0, ..StepInput::default() };
         assert!(blow(&mut source, &beyond, 0.5).iter().all(|&speed| speed <= FULL_STRENGTH_SPEED));
+    }
+
+    #[test]
+    fn a_microphone_that_comes_back_finds_the_room_as_it_was() {
+        let mut source = BreathSource::default();
+        let samples = vec![0.01; 200];
+        let microphone = Microphone { samples: &samples, second: None, reference: &[], sample_rate: 48_000 };
+        let listens = StepInput { microphone: Some(microphone), ..StepInput::default() };
+        assert_eq!(source.room(), None);
+        blow(&mut source, &listens, 20.0);
+        let known = source.room().expect("a room");
+        assert!(known.bands.seconds > 19.0, "{known:?}");
+        blow(&mut source, &StepInput::default(), 1.0);
+        assert_eq!(source.room(), Some(known), "without a microphone");
+        blow(&mut source, &listens, 5.0);
+        let again = source.room().expect("a room");
+        assert!(again.bands.seconds > known.bands.seconds + 4.0, "learning goes on: {again:?}");
     }
 
     #[test]

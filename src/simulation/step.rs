@@ -14,6 +14,7 @@ use super::pointer_grabs::PickScene;
 use super::rate::{DT, SAMPLES_PER_STEP};
 use super::source::BreathState;
 use super::start::start_dynamics;
+use soffio_detector::Room;
 use soffio_exhibit::{Exhibit, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::StateHash;
@@ -74,6 +75,16 @@ impl Simulation {
     pub fn adopt_detector(mut self, before: &mut Self) -> Self {
         self.breath.adopt_detector(&mut before.breath);
         self
+    }
+
+    /// What the breath detector knows of the room; `None` where there was no microphone yet.
+    pub fn room(&self) -> Option<Room> {
+        self.breath.room()
+    }
+
+    /// Lets the breath detector begin with what an earlier run knew of the room.
+    pub fn recall(&mut self, room: Room) {
+        self.breath.recall(room);
     }
 
     /// Removes the dust particles where no picture is drawn. They change neither motion nor sound.

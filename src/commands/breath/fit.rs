@@ -22,7 +22,7 @@ const BLOCKS_A_SECOND: u32 = 125;
 
 /// Sets the detector for this venue: `breath.threshold` and `breath.sensitivity_db`, from a folder of `soffio-record-breaths`.
 ///
-/// It changes nothing; it prints the two lines for kiosk.toml, and how sure the detector is before and after.
+/// It changes nothing; it prints the lines for kiosk.toml, and how sure the detector is before and after.
 ///
 /// Example: soffio breath fit recordings-of-the-gallery
 #[derive(clap::Args, Debug)]
@@ -86,7 +86,9 @@ pub(super) fn run(args: &Args) -> Outcome {
     println!("before (breath.threshold = {}): {}", fit.before.threshold, sentence(&fit.before, fit.distance_cm));
     println!("after:  {}", sentence(&fit.after, fit.distance_cm));
     println!("\n[breath]\nthreshold = {:.1}\nsensitivity_db = {:.1}", fit.after.threshold, fit.sensitivity_db);
-    println!("\nBoth were chosen from these recordings. Record ten more breaths to see how they do on others.");
+    println!("heard = {}\nheard_of = {}", fit.after.detected, fit.after.breaths);
+    println!("heard_at_cm = {:.0}", fit.distance_cm.unwrap_or_default());
+    println!("\nThreshold and sensitivity were chosen from these recordings. Record ten more breaths to see how they do on others.");
     Ok(())
 }
 

@@ -2,6 +2,7 @@
 //!
 //! It observes from the window's side and changes nothing that a visitor sees. Commands of a broker are handed to the window.
 
+pub mod kept_room;
 pub mod metrics;
 pub(crate) mod mqtt;
 pub mod persisted;
@@ -12,8 +13,9 @@ pub(crate) mod writer;
 
 use std::path::Path;
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
+use crate::fleet::kept_room::KeptRoom;
 use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
 use crate::fleet::mqtt::{Mqtt, Order};
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
@@ -29,6 +31,9 @@ use soffio_exhibit::{Exhibit, SIDECAR};
 
 /// Longest wait of the daily self-test for a moment without visitors, minutes.
 const SELF_TEST_WAITS_MIN: u16 = 60;
+/// Time between two copies of what the detector knows of the room: it changes over minutes, and an empty night must not fill a log of
+/// writes.
+const ROOM_EVERY: Duration = Duration::from_secs(600);
 
 /// Message about safe mode for staff.
 pub const SAFE_MODE: &str = "safe mode: the kiosk crashed three times within a minute of its start, so it shows one built-in \
@@ -82,6 +87,8 @@ pub struct Fleet {
     self_tests: u64,
     /// The day of the last self-test.
     tested_on: Option<Day>,
+    /// When the room was copied last.
+    room_at: Instant,
     /// The exhibit on show, and a hash of its sidecar.
     content: Option<(Arc<Exhibit>, String)>,
 }
@@ -98,6 +105,7 @@ impl Fleet {
             metrics: Metrics::start(site.staff.metrics.clone()),
             mqtt: Mqtt::start(&site.mqtt),
             began: Instant::now(),
+            room_at: Instant::now(),
             safe,
             reloads: true,
             self_tests: 0,
@@ -179,6 +187,9 @@ impl Fleet {
         // Before the first step the simulation does not know the settings of staff.
         if frame.current.step > 0 {
             (self.persisted.muted, self.persisted.night_by) = (load.loudness.muted, load.loudness.by);
+        }
+        if let Some(room) = load.room.filter(|_| now.duration_since(self.room_at) >= ROOM_EVERY) {
+            (self.persisted.room, self.room_at) = (Some(KeptRoom::from(room)), now);
         }
         self.persisted.blank = seen.venue.is_blank();
         self.persisted.wrong_pins = seen.wrong_pins;

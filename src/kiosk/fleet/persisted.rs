@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use crate::fleet::kept_room::KeptRoom;
 use crate::fleet::visits::Histogram;
 use crate::fleet::writer::{Writer, write};
 use crate::step::breaths::BreathSource;
@@ -69,6 +70,8 @@ pub struct PersistedState {
     /// Results of the audio self-test, and the state of the foam.
     #[serde(alias = "care")]
     pub self_test: SelfTestHistory,
+    /// What the breath detector knows of the room.
+    pub room: Option<KeptRoom>,
     /// Counters over all runs since the file was deleted.
     #[serde(alias = "tally")]
     pub counters: Counters,

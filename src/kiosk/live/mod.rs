@@ -44,7 +44,8 @@ impl Live {
     pub fn start(options: Options, aspect: f64, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
         let site = &options.site;
         let settings = Settings { clock: local_time(), ..site.settings };
-        let stage = Stage::new(options.exhibit.clone(), settings, options.recording.clone(), site.idle_s);
+        let mut stage = Stage::new(options.exhibit.clone(), settings, options.recording.clone(), site.idle_s);
+        options.room.into_iter().for_each(|room| stage.recall(room));
         let trace = match &options.trace {
             Some(path) => Some(TraceWriter::create(path, &options.exhibit, DEFAULT_FPS).map_err(trace_error)?),
             None => None,

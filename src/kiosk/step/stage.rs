@@ -6,6 +6,7 @@
 
 use std::sync::Arc;
 
+use soffio_detector::Room;
 use soffio_exhibit::{Exhibit, OrbitLimits, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_offline::feed::WavFeed;
@@ -86,6 +87,16 @@ impl Stage {
             commands: Vec::new(),
             snapshot,
         }
+    }
+
+    /// What the breath detector knows of the room; `None` where there was no microphone yet.
+    pub fn room(&self) -> Option<Room> {
+        self.simulation.room()
+    }
+
+    /// Lets the breath detector begin with what an earlier run knew of the room.
+    pub fn recall(&mut self, room: Room) {
+        self.simulation.recall(room);
     }
 
     /// Adds a press that has come up, for the next step.

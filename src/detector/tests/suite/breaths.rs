@@ -1,9 +1,14 @@
 //! Breaths make wind, at once and as long as they last; other sounds make none.
 
 use super::estimates;
+use soffio_detector::{BlowDetector, Room};
 use soffio_math::noise::Random;
 use soffio_soundscape::breath::Breath;
+use soffio_soundscape::draught::Draught;
+use soffio_soundscape::microphone::Microphone;
+use soffio_soundscape::scenes::{Scenario, Stage};
 use soffio_soundscape::test_sounds as sounds;
+use soffio_soundscape::RATE;
 
 /// Longest time from the air at the capsule to wind, s: nine in ten breaths must not wait longer.
 const LATENCY_S: f64 = 0.3;
@@ -78,4 +83,60 @@ fn gain_does_not_decide() {
     for gain in [0.25, 4.0] {
         assert!((seconds(gain) - plain).abs() < 0.2, "{} s at gain {gain}, {plain} s without", seconds(gain));
     }
+}
+
+#[test]
+fn gain_control_is_named_after_one_breath_and_hardly_changes_its_strength() {
+    const VISITS: u64 = 12;
+    /// Visits in which one breath must be enough; a crowd may hide the drop.
+    const NAMED: usize = 10;
+    /// Mean strength with gain control relative to that without.
+    const STRENGTH: std::ops::Range<f64> = 0.8..1.2;
+    let scenario = Scenario::new(3);
+    let listen = |gain_control: bool, visit: u64| {
+        let mut random = Random::new(visit);
+        let mut stage = Stage::new(8.0, 1);
+        stage.add_noise(0.0, &scenario.air_noise(8.0, 50.0, 1, &mut random), &[]);
+        stage.add_breath(4.0, &Breath { hold: 1.5, ..Breath::default() }, random.word());
+        let take = stage.recorded(&Microphone { gain_control, ..Microphone::default() }, visit);
+        let wind = estimates(&take.left, take.sample_rate);
+        let speeds: Vec<f64> = wind.iter().filter(|(_, e)| e.speed > 0.0).map(|(_, e)| e.speed).collect();
+        (wind.last().is_some_and(|(_, e)| e.gain_control), speeds.iter().sum::<f64>() / speeds.len() as f64)
+    };
+    let mut named = 0;
+    for visit in 0..VISITS {
+        let ((plain, speed), (controlled, controlled_speed)) = (listen(false, visit), listen(true, visit));
+        assert!(!plain, "visit {visit}: there is no gain control");
+        assert!(STRENGTH.contains(&(controlled_speed / speed)), "visit {visit}: {controlled_speed}, not {speed} m/s");
+        named += usize::from(controlled);
+    }
+    assert!(named >= NAMED, "named in {named} of {VISITS} visits");
+}
+
+#[test]
+fn what_is_learnt_of_a_draughty_room_outlasts_a_restart() {
+    const LEARNING_S: f64 = 150.0;
+    let listen = |samples: &[f32], known: Option<&Room>| {
+        let mut detector = BlowDetector::new(RATE);
+        known.into_iter().for_each(|room| detector.recall(room));
+        detector.push(samples, &[]);
+        detector.room()
+    };
+    let steady = listen(&sounds::white_noise(RATE, 1, LEARNING_S, -50.0), None);
+    assert!(steady.gusts_db() < 0.3, "steady noise has no gusts: {steady:?}");
+    let mut random = Random::new(7);
+    let mut stage = Stage::new(LEARNING_S, 1);
+    stage.add_noise(0.0, &Scenario::new(3).air_noise(LEARNING_S, 40.0, 1, &mut random), &[]);
+    let draught = Draught::random(0.6, 0.3, 0.0, &mut random);
+    stage.add_noise(0.0, &draught.pressure(LEARNING_S, RATE, 9), &[]);
+    let take = stage.recorded(&Microphone::default(), 4);
+    let learnt = listen(&take.left, None);
+    assert!((1.5..6.0).contains(&learnt.gusts_db()), "{} dB: {learnt:?}", learnt.gusts_db());
+    // Five seconds after a restart.
+    let soon = &take.left[..5 * RATE as usize];
+    let off = |room: &Room| {
+        room.bands.db.iter().zip(&learnt.bands.db).map(|(a, b)| (a - b).abs()).fold(0.0_f64, |most, db| most.max(db))
+    };
+    let (known, unknown) = (off(&listen(soon, Some(&learnt))), off(&listen(soon, None)));
+    assert!(known < 0.7 && unknown > 2.0, "off by {known} dB with and {unknown} dB without what was kept");
 }

@@ -190,6 +190,7 @@ impl Thread {
         load.audio = audio.status();
         load.played = audio.played();
         load.loudness = self.playback.loudness.status();
+        load.room = self.stage.room();
         load.mode = self.stage.snapshot().diagnostics.mode;
         load.controllers.clear();
         load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));

@@ -10,12 +10,15 @@ use crate::pages::ui_strings::{TextId, UiStrings, Variable};
 use crate::staff::action::StaffAction;
 use crate::staff::panel_input::PanelInput;
 use crate::venue::loudness::NightBy;
+use soffio_config::Breath;
 use soffio_devices::audio::{DeviceState, SoundDelay};
 use soffio_devices::controllers::State;
 use soffio_simulation::MotionMode;
 
 /// Block that the panel proposes where the device offers it, ms: half of the default, and still longer than a step.
 const SHORT_BLOCK_MS: f64 = 5.0;
+/// Time after which the room is known well enough to be told of, s.
+const KNOWN_S: f64 = 60.0;
 
 /// The buttons of every day, then all numbers.
 pub fn show(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAction>) {
@@ -63,6 +66,18 @@ fn buttons(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAc
             }
         });
     });
+}
+
+/// How sure the detector is here, by the recordings of the venue: a sentence.
+fn heard(texts: &UiStrings, breath: &Breath) -> Arc<str> {
+    match breath.heard_of {
+        0 => texts.get(TextId::StaffHeardUnknown).into(),
+        of => {
+            let distance = format!("{:.0}", breath.heard_at_cm).into();
+            let variables = [("heard", breath.heard.into()), ("of", of.into()), ("distance", distance)];
+            texts.format(TextId::StaffHeardOf, &variables)
+        }
+    }
 }
 
 /// The numbers, one a row.
@@ -123,6 +138,11 @@ fn microphone(ui: &mut Ui, input: &PanelInput) {
             row(ui, texts.get(TextId::StaffSelfTest), text, last.is_bad());
         }
         None => row(ui, texts.get(TextId::StaffSelfTest), texts.get(TextId::StaffSelfTestNone), false),
+    }
+    row(ui, texts.get(TextId::StaffHeard), heard(texts, &input.site.breath), false);
+    if let Some(room) = frame.load.room.filter(|room| room.bands.seconds >= KNOWN_S) {
+        let gusts = texts.format(TextId::StaffGustsCost, &[("db", format!("{:.0}", room.gusts_db()).into())]);
+        row(ui, texts.get(TextId::StaffGusts), gusts, false);
     }
     row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, estimate), estimate.gain_control);
     row(ui, texts.get(TextId::StaffDetector), decision(texts, estimate), false);
