@@ -1,10 +1,11 @@
 //! Arguments that several commands share.
 
 use clap::ValueEnum;
+use soffio_exhibit::{Exhibit, Motion};
 use soffio_simulation::MotionMode;
 
 /// Solver on the command line.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum SolverArg {
     /// Constrained dynamics.
     Dynamics,
@@ -18,6 +19,13 @@ pub enum SolverArg {
 }
 
 impl SolverArg {
+    /// Why an exhibit cannot move by this solver; `None` where it can.
+    pub fn refusal(self, exhibit: &Exhibit) -> Option<String> {
+        let by_positions = matches!(self, Self::Procedural | Self::PositionBased);
+        let why = Motion::refusal(&exhibit.constraints).filter(|_| by_positions)?;
+        Some(format!("{} moves by dynamics alone: {why}", exhibit.id))
+    }
+
     /// `None` is the exhibit's own choice.
     pub fn mode(self) -> Option<MotionMode> {
         match self {

@@ -54,7 +54,10 @@ impl AgcDetector {
         let early = 1.0 / self.frames as f64;
         let follow = |average: &mut [f64; COMPARED], seconds: f64| {
             let weight = blend(seconds).max(early);
-            average.iter_mut().zip(&levels[BANDS - COMPARED..]).for_each(|(mean, level)| *mean += weight * (level - *mean));
+            average
+                .iter_mut()
+                .zip(&levels[BANDS - COMPARED..])
+                .for_each(|(mean, level)| *mean += weight * (level - *mean));
         };
         follow(&mut self.now, AVERAGES_S.1);
         if blowing {

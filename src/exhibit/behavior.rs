@@ -1,6 +1,7 @@
 //! How an exhibit moves, responds to breath and touch, and sounds.
 
 use soffio_math::DVec3;
+use soffio_multibody::articulation::{Constraint, ConstraintKind};
 use soffio_multibody::procedural::PositionSolver;
 use soffio_wind::breath::SpreadLaw;
 
@@ -16,6 +17,17 @@ pub enum Motion {
     Dynamics,
     /// Always position-based motion.
     PositionBased(PositionSolver),
+}
+
+impl Motion {
+    /// Why constraints such as these move by dynamics alone, and not by positions; `None` where they move by both.
+    pub fn refusal(constraints: &[Constraint]) -> Option<&'static str> {
+        if constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::Coupling { .. })) {
+            return Some("its gears pass on forces, which position-based motion does not know");
+        }
+        let breaks = constraints.iter().any(|constraint| constraint.breaking.is_some());
+        breaks.then_some("it breaks under load, which position-based motion does not know")
+    }
 }
 
 /// What visitors may do to an exhibit by touch or mouse.

@@ -9,7 +9,7 @@ use super::input::{MotionMode, Profile, Settings, StepInput};
 use super::pointer_grabs::{PickScene, PointerGrabs};
 use super::rate::{DT, STEPS_PER_SECOND};
 use super::start::{start_clock_setting, start_dynamics};
-use soffio_exhibit::Exhibit;
+use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_math::spatial::Vec6;
 use soffio_multibody::dynamics::{Dynamics, Impact};
 use soffio_multibody::procedural::{self, PositionSolver, Procedural};
@@ -33,6 +33,8 @@ pub(crate) struct Motion {
     pub pointer_grabs: PointerGrabs,
     /// Which of the motions is in use.
     pub mode: MotionMode,
+    /// The exhibit moves by dynamics alone.
+    dynamics_only: bool,
     assembly: Option<RunningAssembly>,
     /// `Some` until the clock, if there is one, shows the time.
     pub clock_setting: Option<ClockSetting>,
@@ -54,6 +56,7 @@ impl Motion {
             dynamics,
             pointer_grabs: PointerGrabs::new(exhibit),
             mode: MotionMode::of(exhibit),
+            dynamics_only: exhibit::Motion::refusal(&exhibit.constraints).is_some(),
             assembly: None,
             idle_damping: IdleDamping::default(),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],
@@ -120,7 +123,10 @@ impl Motion {
             is_kinematic: self.dynamics.system().kinematic(),
         };
         self.pointer_grabs.update(input.pointer_grabs, wind, &scene);
-        self.mode = input.mode.unwrap_or(MotionMode::of(exhibit));
+        self.mode = match input.mode.unwrap_or(MotionMode::of(exhibit)) {
+            _ if self.dynamics_only => MotionMode::Dynamic,
+            mode => mode,
+        };
         if let Some(RunningAssembly { assembly, steps_left }) = &mut self.assembly {
             *steps_left -= 1;
             self.wrenches.fill([0.0; 6]);

@@ -215,6 +215,25 @@ fn a_silent_recording_plays_and_moves_no_air() {
 }
 
 #[test]
+fn a_clock_by_positions_is_refused_with_the_reason() {
+    let desk = Desk::new();
+    let clock = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits/terry-clock");
+    for solver in ["procedural", "position-based"] {
+        let run = desk.soffio(&["play", text(&clock), "--seconds", "1", "--solver", solver]);
+        run.refused(2, &["terry-clock moves by dynamics alone", "gears"]);
+    }
+    let folder = desk.path("clock");
+    std::fs::create_dir(&folder).expect("a writable folder");
+    for file in std::fs::read_dir(&clock).expect("a folder").flatten() {
+        std::fs::copy(file.path(), folder.join(file.file_name())).expect("a copy");
+    }
+    let sidecar = std::fs::read_to_string(folder.join("exhibit.toml")).expect("a sidecar");
+    let sidecar = sidecar.replacen("[solver]\n", "", 1) + "\n[solver]\nmotion = \"procedural\"\n";
+    std::fs::write(folder.join("exhibit.toml"), sidecar).expect("a writable folder");
+    desk.soffio(&["play", "clock", "--seconds", "1"]).refused(2, &["E0266", "gears", "motion = \"dynamics\""]);
+}
+
+#[test]
 fn mistyped_options_are_usage() {
     let desk = Desk::new();
     let exhibit = fish();

@@ -118,6 +118,10 @@ pub fn run(args: Args) -> Outcome {
         clock: args.clock,
         ..setup::settings()?
     };
+    let solver = if args.compare && args.solver == SolverArg::Auto { SolverArg::PositionBased } else { args.solver };
+    if let Some(message) = solver.refusal(&exhibit) {
+        return Err(Failure { code: 2, message });
+    }
     let mode = match (args.compare, args.solver) {
         (true, SolverArg::Auto) => Some(MotionMode::PositionBased),
         (true, SolverArg::Dynamics) => {

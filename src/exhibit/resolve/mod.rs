@@ -35,6 +35,7 @@ use super::{codes, paths, schema};
 use context::Context;
 use nail_paths::add_path_nodes;
 use soffio_math::DVec3;
+use soffio_multibody::articulation::Constraint;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_multibody::procedural::PositionSolver;
 
@@ -195,6 +196,7 @@ impl Context<'_> {
         self.check_mass_ratios(&constraints, &bodies, &drives);
         let excluded_pairs = self.excluded_pairs(&constraints, &limits);
         let colliders = self.colliders(&wires);
+        let motion = self.motion(&constraints);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
         let shelters = self.shelters(&wind_surfaces);
@@ -224,7 +226,7 @@ impl Context<'_> {
             }),
             duration: self.duration(),
             assembles: self.sidecar.scene.assembly_animation.unwrap_or(true),
-            motion: self.motion(),
+            motion,
             touch,
             clock,
             integrator,
@@ -281,7 +283,7 @@ impl Context<'_> {
     }
 
     /// Motion mode.
-    fn motion(&mut self) -> Motion {
+    fn motion(&mut self, constraints: &[Constraint]) -> Motion {
         let given = &self.sidecar.solver;
         let budget = given.budget.map_or(BUDGET, |time| time.0);
         let budget = self.positive(budget, "/solver/budget");
@@ -294,6 +296,12 @@ impl Context<'_> {
         if given.budget.is_some() && given.motion != sidecar::MovedBy::Auto {
             let problem = Diagnostic::new(codes::UNUSED, "the budget is for motion = \"auto\" and does nothing here");
             self.report("/solver/budget", problem.help("leave it out, or write motion = \"auto\""));
+        }
+        if let Motion::PositionBased(_) = motion
+            && let Some(why) = Motion::refusal(constraints)
+        {
+            let problem = Diagnostic::new(codes::DYNAMICS_ONLY, format!("this exhibit moves by dynamics alone: {why}"));
+            self.report("/solver/motion", problem.help("write motion = \"dynamics\" or \"auto\""));
         }
         self.record_origin("solver", "motion", format!("{motion:?}"), "/solver/motion", "default");
         motion

@@ -17,11 +17,10 @@
 //! Resting contacts follow `resting_friction.rs` where their surfaces have rolling resistance, or for balls with
 //! Relaxation.
 //!
-//! A contact rests if it, or one on the same side of the same two bodies, existed in the previous step, and it
-//! approaches no faster than gravity accelerates in a step or two. It does not bounce and is not reported. A ball in
-//! a hollow rests on one slope after the other.
+//! A contact rests if it approaches no faster than the step's forces accelerate in a step or two: a shorter bounce than a step cannot be
+//! told from rest. It does not bounce. Nor is it reported, if it, or one on the same side of the same two bodies, existed in the previous
+//! step. A ball in a hollow rests on one slope after the other.
 
-use super::relaxation::Relaxation;
 use super::resting_friction::{ContactImpulse, ContactMobility, ContactVelocity, resting_impulse};
 use crate::articulation::System;
 use crate::dynamics::impact_law::impulse;
@@ -32,16 +31,18 @@ use soffio_math::{DMat3, DVec3, tangents};
 
 /// Most contacts of one step.
 const MAX_CONTACTS: usize = 256;
-/// Approach speed below which contacts do not bounce, m/s or rad/s; the speed that gravity gives within
-/// [`RESTING_STEPS`] steps is added.
+/// Approach speed below which contacts do not bounce, m/s or rad/s; what forces have given in [`RESTING_STEPS`] steps such as this is
+/// added.
 const RESTING_SPEED: f64 = 4e-3;
 const RESTING_STEPS: f64 = 2.0;
 /// Least cosine between the normals of two contacts on the same side.
 const SAME_SIDE: f64 = 0.9;
 /// Effective inverse mass below which the joints lock a contact, 1/kg.
 const LOCKED: f64 = 1e-9;
-/// Penetration that is tolerated, m or rad.
-const PENETRATION_TOLERANCE: f64 = 1e-9;
+/// Share of the friction limit below which a contact sticks; the rest is rounding.
+const STICKING: f64 = 0.999;
+/// Penetration that is tolerated, m or rad: a wavelength of light.
+const PENETRATION_TOLERANCE: f64 = 5e-7;
 
 /// Which pass of separation detects contacts or moves bodies apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,8 +67,6 @@ pub(super) enum FrictionLaw {
 pub(super) struct ResponseStep {
     /// Length of the step, s.
     pub dt: f64,
-    /// Magnitude of gravity, m/s².
-    pub gravity: f64,
     /// Friction of resting balls.
     pub friction: FrictionLaw,
 }
@@ -147,7 +146,16 @@ impl ContactResponse {
             a.s.total_cmp(&b.s).then(a.source.cmp(&b.source)).then(b.depth.total_cmp(&a.depth))
         };
         found.sort_unstable_by(order);
-        found.iter().any(|contact| contact.depth > PENETRATION_TOLERANCE)
+        let penetrates = found.iter().any(|contact| contact.depth > PENETRATION_TOLERANCE);
+        if pass == SeparationPass::Repeated {
+            // What separation brings to a limit stops there too.
+            for contact in self.later_contacts.iter().filter(|contact| contact.colliders.is_none()) {
+                if self.current.iter().all(|known| known.source != contact.source) {
+                    self.current.push(*contact);
+                }
+            }
+        }
+        penetrates
     }
 
     /// Separates penetrating contacts by moving the whole mechanism; joints hold to first order.
@@ -176,32 +184,6 @@ impl ContactResponse {
         }
     }
 
-    /// Separates penetrating bodies directly, without joints (Relaxation). Separation that other contacts have done
-    /// already is subtracted: a ball in a hollow of four slopes would jump.
-    pub fn separate_directly(
-        &mut self,
-        mover: &mut Relaxation,
-        system: &System,
-        contacts: &Contacts,
-        bodies: &mut [RigidBody],
-        pass: SeparationPass,
-    ) {
-        let found = if pass == SeparationPass::First { &self.current } else { &self.later_contacts };
-        let starts = &mut self.force_columns[2];
-        starts.iter_mut().zip(bodies.iter()).for_each(|(start, body)| *start = vec6(body.position, DVec3::ZERO));
-        let mut done = None;
-        for contact in found.iter().filter(|contact| contact.depth > PENETRATION_TOLERANCE) {
-            let displacement =
-                |(body, block): &(usize, Vec6)| linear(block).dot(bodies[*body].position - linear(&starts[*body]));
-            let depth = contact.depth - contact.ends.iter().flatten().map(displacement).sum::<f64>();
-            // The deepest point stands for its pair.
-            if done != Some(contact.source) && depth > PENETRATION_TOLERANCE {
-                mover.separate_directly(&SweptContact { depth, ..*contact }, system, contacts, bodies);
-            }
-            done = Some(contact.source);
-        }
-    }
-
     /// Applies impulses to approaching contacts, and reports them. Returns whether friction has displaced bodies, so
     /// that joints must be closed again.
     pub fn apply_impulses(
@@ -212,12 +194,11 @@ impl ContactResponse {
         step: ResponseStep,
         impacts: &mut Vec<Impact>,
     ) -> bool {
-        let ResponseStep { dt, gravity, friction } = step;
+        let ResponseStep { dt, friction } = step;
         let slip_ratio = friction == FrictionLaw::SlipRatio;
         let mut displaced = false;
         system.evaluate(bodies);
         system.factor();
-        let slow = RESTING_SPEED + RESTING_STEPS * gravity * dt;
         let already = impacts.len();
         for index in 0..self.current.len() {
             let mut contact = self.current[index];
@@ -225,13 +206,16 @@ impl ContactResponse {
             let was_touching = self.was_touching(&contact);
             // The limit has stopped the motion already: its speed is that of the state before.
             let stops = contact.colliders.is_none() && !was_touching;
-            let speed = (-contact.rate(bodies)).max(if stops { -contact.rate(before) } else { 0.0 });
-            let resting = speed < RESTING_SPEED || (was_touching && speed < slow);
+            let [earlier, now] = [before, &*bodies].map(|bodies| -contact.rate(bodies));
+            let speed = now.max(if stops { earlier } else { 0.0 });
+            // What a contact of the step before has left is no new hit.
+            let left = if was_touching { earlier.max(0.0) } else { 0.0 };
+            let resting = speed < left + RESTING_SPEED + RESTING_STEPS * (now - earlier).max(0.0);
             if speed > 0.0 {
                 let restitution = if resting { 0.0 } else { contact.restitution };
                 let response = Response { restitution, resting, slip_ratio, dt };
                 let (push, mass) = self.push(system, &contact, &response, speed, bodies);
-                displaced |= response.resists(&contact);
+                displaced |= resting;
                 let reported = impacts[already..]
                     .iter_mut()
                     .find(|reported| reported.colliders == contact.colliders && reported.bodies == contact.bodies);
@@ -292,28 +276,39 @@ impl ContactResponse {
         }
         let velocity = DVec3::from_array(rows.map(|row| SweptContact { ends: row, ..*contact }.rate(bodies)));
         let p = impulse(&k, velocity, contact.friction, response.restitution);
-        if !response.resists(contact) {
-            add(bodies, &self.force_columns, p);
-            return (p.length(), 1.0 / k.z_axis.z);
-        }
-        let slip_ratio = response.slip_ratio && rolling_ball(contact).is_some();
-        let ContactImpulse { force, couple } =
-            self.resting_impulse(system, contact, (k, velocity, p), slip_ratio, bodies);
+        let ContactImpulse { force, couple } = if response.resists(contact) {
+            let slip_ratio = response.slip_ratio && rolling_ball(contact).is_some();
+            self.resting_impulse(system, contact, (k, velocity, p), slip_ratio, bodies)
+        } else {
+            ContactImpulse { force: p, couple: DVec3::ZERO }
+        };
         add(bodies, &self.force_columns, force);
-        add(bodies, &self.couple_columns, couple);
-        // As under all other forces, the displacement of a step follows the velocity at its end: a body at rest
-        // stays.
-        for (force_columns, p) in [(&self.force_columns, force.with_z(0.0)), (&self.couple_columns, couple)] {
-            for (index, body) in bodies.iter_mut().enumerate() {
-                let (displacement, rotation) = sum(force_columns, p, index);
-                body.displace(response.dt * displacement, response.dt * rotation);
-            }
+        if couple != DVec3::ZERO {
+            add(bodies, &self.couple_columns, couple);
+        }
+        let sticks = force.truncate().length() < STICKING * contact.friction * force.z;
+        if response.resting && (sticks || response.resists(contact)) {
+            // As under all other forces, the displacement of a step follows the velocity at its end: a body at rest stays.
+            self.displace(bodies, (force.with_z(0.0), couple), response.dt);
         }
         (force.length(), 1.0 / k.z_axis.z)
     }
 }
 
 impl ContactResponse {
+    /// Moves all bodies by what tangential impulses and couples of the last contact change in `dt` s.
+    fn displace(&self, bodies: &mut [RigidBody], (force, couple): (DVec3, DVec3), dt: f64) {
+        for (columns, p) in [(&self.force_columns, force), (&self.couple_columns, couple)] {
+            if p == DVec3::ZERO {
+                continue;
+            }
+            for (index, body) in bodies.iter_mut().enumerate() {
+                let (displacement, rotation) = sum(columns, p, index);
+                body.displace(dt * displacement, dt * rotation);
+            }
+        }
+    }
+
     /// Impulse of a resting contact whose Coulomb impulse is known.
     fn resting_impulse(
         &mut self,

@@ -15,7 +15,7 @@
 //! A ball joint is exact after the second. Redundant rows count once
 //! (`soffio_math::spatial::row_blocks::pseudo_inverse`).
 
-use super::two_body_rule::{self, RotationRule};
+use super::two_body_rule::{self, Group};
 use crate::articulation::rows::{BodyStates, JacobianRow, orientation, plane, point};
 use crate::articulation::{Anchor, ConstraintKind, Joint, System};
 use crate::dynamics::Contacts;
@@ -45,6 +45,8 @@ pub(super) struct Configuration<'a> {
     pub contacts: &'a Contacts,
     /// Target error of each row, m or rad.
     pub targets: &'a [f64],
+    /// Control c of the compulsive rotation.
+    pub control: f64,
 }
 
 /// Rows of a joint with their blocks on one body.
@@ -111,28 +113,32 @@ impl Configuration<'_> {
         BodyStates { bodies: self.bodies, frames: self.frames, time: self.system.activity.time() }
     }
 
-    /// Moves the joint point of a body, at the arm r, by s with a rotation rule; the body does not rotate about
-    /// `fixed_axes`.
-    pub fn pull(
-        &mut self,
-        body: usize,
-        (r, s): (DVec3, DVec3),
-        (rotation_rule, mass): (RotationRule, f64),
-        fixed_axes: &[DVec3],
-    ) {
-        let mut rotation_vector = two_body_rule::rotation_vector(rotation_rule, r, s, &self.inertia(body), mass);
-        for axis in fixed_axes {
-            rotation_vector -= rotation_vector.dot(*axis) * *axis;
-        }
-        let rotation = matrix(soffio_math::rotation(rotation_vector));
-        self.displace(body, two_body_rule::compulsive_translation(r, s, &rotation), rotation_vector);
+    /// The body alone, as a group.
+    pub fn alone(&self, body: usize) -> Group {
+        let state = &self.bodies[body];
+        Group { mass: state.properties.mass, center: state.position, inertia: self.inertia(body) }
     }
 
-    /// Closes a joint by moving the body `own`; `mass` is its group's, `limits` are those between the joint's bodies.
-    pub fn close(&mut self, joint: usize, own: usize, (rotation_rule, mass): (RotationRule, f64), limits: &[usize]) {
+    /// Moves the point `at` of a body (m) by s with the rule, as the head of its group; it does not rotate about `fixed_axes`.
+    pub fn pull(&mut self, body: usize, (at, s): (DVec3, DVec3), group: &Group, fixed_axes: &[DVec3]) {
+        let held = |v: DVec3| fixed_axes.iter().fold(v, |v, axis| v - v.dot(*axis) * *axis);
+        // A body that turns about one axis alone turns by what lies across that axis.
+        let free_axis = if let [e, f] = *fixed_axes { Some(e.cross(f)) } else { None };
+        let across = |v: DVec3| free_axis.map_or(v, |axis| v - v.dot(axis) * axis);
+        let r = at - group.center;
+        let turn = two_body_rule::compulsive_rotation(across(r), across(s), self.control, &group.inertia, group.mass);
+        let rotation_vector = held(turn);
+        let rotation = matrix(soffio_math::rotation(rotation_vector));
+        let arm = at - self.bodies[body].position;
+        self.displace(body, two_body_rule::compulsive_translation(arm, s, &rotation), rotation_vector);
+    }
+
+    /// Closes a joint by moving the body `own`, the head of its group; `limits` are those between the joint's bodies.
+    pub fn close(&mut self, joint: usize, own: usize, group: &Group, limits: &[usize]) {
         let system = self.system;
         let joint = &system.joints()[joint];
-        let (mut fixed_axes, axes) = ([DVec3::ZERO; 3], self.close_orientations(joint, own));
+        let arm = self.bodies[own].position - group.center;
+        let (mut fixed_axes, axes) = ([DVec3::ZERO; 3], self.close_orientations(joint, own, (group, arm)));
         let mut count = 0;
         for axis in axes {
             let mut axis = axis;
@@ -144,8 +150,8 @@ impl Configuration<'_> {
                 count += 1;
             }
         }
-        if let Some((r, s)) = self.first_pull(joint, own) {
-            self.pull(own, (r, s), (rotation_rule, mass), &fixed_axes[..count]);
+        if let Some(pull) = self.first_pull(joint, own) {
+            self.pull(own, pull, group, &fixed_axes[..count]);
         }
         let lone = limits.is_empty() && joint.constraints.len() == 1;
         if lone && matches!(system.constraints()[joint.constraints[0]].kind, ConstraintKind::PointToPoint { .. }) {
@@ -160,14 +166,14 @@ impl Configuration<'_> {
                     rows.push(block, gap);
                 }
             }
-            if !self.newton(own, &rows) {
+            if !self.newton(own, (group, arm), rows) {
                 break;
             }
         }
     }
 
     /// Rotates a body so that the joint's orientations close; returns their axes.
-    fn close_orientations(&mut self, joint: &Joint, own: usize) -> [DVec3; 3] {
+    fn close_orientations(&mut self, joint: &Joint, own: usize, group: (&Group, DVec3)) -> [DVec3; 3] {
         let angles = |kind: &ConstraintKind| matches!(kind, ConstraintKind::Orientation { .. });
         let mut axes = [DVec3::ZERO; 3];
         for _ in 0..MAX_NEWTON_STEPS {
@@ -175,21 +181,26 @@ impl Configuration<'_> {
             for (axis, block) in axes.iter_mut().zip(&rows.blocks[..rows.count]) {
                 *axis = angular(block);
             }
-            if !self.newton(own, &rows) {
+            if !self.newton(own, group, rows) {
                 break;
             }
         }
         axes
     }
 
-    /// One Newton step on a body; false if all rows are closed.
-    fn newton(&mut self, own: usize, rows: &BodyRows) -> bool {
+    /// One Newton step on the head of a group, whose centre lies at `arm` from the group's; false if all rows are closed.
+    fn newton(&mut self, own: usize, (group, arm): (&Group, DVec3), mut rows: BodyRows) -> bool {
         if rows.open() <= CLOSED {
             return false;
         }
-        let delta = rows.least(1.0 / self.bodies[own].properties.mass, &self.inertia(own).inverse());
+        // The blocks about the group's centre: a rotation moves the body's centre by ω × arm.
+        for block in &mut rows.blocks[..rows.count] {
+            *block = vec6(linear(block), angular(block) + arm.cross(linear(block)));
+        }
+        let delta = rows.least(1.0 / group.mass, &group.inertia.inverse());
         let (displacement, rotation) = (linear(&delta), angular(&delta));
         let shorter = (MAX_ROTATION / rotation.length()).min(1.0);
+        let displacement = displacement + rotation.cross(arm);
         self.displace(own, shorter * displacement, shorter * rotation);
         true
     }
@@ -242,10 +253,9 @@ impl Configuration<'_> {
         rows
     }
 
-    /// Arm and displacement of the joint's first point or plane, for one of its bodies.
+    /// Point of one of the joint's bodies at its first point or plane, m, and its displacement there, m.
     pub fn first_pull(&self, joint: &Joint, own: usize) -> Option<(DVec3, DVec3)> {
         let (system, scene) = (self.system, self.scene());
-        let center = self.bodies[own].position;
         let pull = |(index, at): (usize, usize)| match &system.constraints()[index].kind {
             ConstraintKind::PointToPoint { a, b } => {
                 // C = a − b.
@@ -253,14 +263,14 @@ impl Configuration<'_> {
                 let (mine, other, kept): (&Anchor, &Anchor, DVec3) =
                     if a.body == Some(own) { (a, b, kept) } else { (b, a, -kept) };
                 let at = scene.point(mine).position;
-                Some((at - center, scene.point(other).position - at + kept))
+                Some((at, scene.point(other).position - at + kept))
             }
             ConstraintKind::PointOnPlane { point, plane, normal, offset } => {
                 let row = plane::row(&scene, point, plane, *normal, offset);
                 // The plane's body is pulled where the point is.
                 let sign = if point.body == Some(own) { -1.0 } else { 1.0 };
                 let displacement = sign * (row.value - self.targets[at]);
-                Some((scene.point(point).position - center, displacement * linear(&row.a)))
+                Some((scene.point(point).position, displacement * linear(&row.a)))
             }
             _ => None,
         };

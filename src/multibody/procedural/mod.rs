@@ -1,26 +1,29 @@
-//! Position-based motion (method 3.1 to 3.6): positions are solved first and velocities derived from them. It has no
-//! stiff forces, so a body can be dragged anywhere, and a step has a bounded cost.
+//! Position-based motion (method 3.1 to 3.6): positions are solved first. It has no stiff forces, so a body can be dragged
+//! anywhere, and a step has a bounded cost.
 //!
-//! Each step has two stages. The **update** moves each body as if it were free,
+//! Each step has two stages. The **update** moves each body with the velocity of the last step, the forces, and what the joints take
+//! of both,
 //!
 //! ```text
-//! x_{k+1} = x_k + κ (x_k − x_{k−1}) + a Δt²        κ ∈ [0, 1],   (x_k − x_{k−1})/Δt kept as the velocity
+//! x_{k+1} = x_k + v Δt        v = P(κ v_k + a Δt)        κ ∈ [0, 1]
 //! ```
 //!
-//! and rotates it likewise; kinematic bodies follow their motion. The **adjustment** closes the joints again, by one
-//! of two solvers:
+//! and rotates it likewise; kinematic bodies follow their motion. P projects velocities on the joints with least kinetic energy. The
+//! source has no P: its bodies are free, and the adjustment also has to give them what gravity and momentum pass through the joints. Joint by
+//! joint it cannot, and such a figure gains energy or never swings. With P nothing gains energy, whatever Δt.
 //!
-//! * [`PositionSolver::Relaxation`], the source's "compulsive motion": joint-by-joint relaxation, a Gauss–Seidel
-//!   sweep akin to CCD and FABRIK, with a rule for two bodies (`two_body_rule.rs`), one joint (`joint_closure.rs`),
-//!   and grouping along the mechanism (`walk.rs`, `relaxation.rs`). It is visibly plausible for drags; under gravity
-//!   alone it swings too little, as small displacements rotate nothing.
-//! * [`PositionSolver::TreeSolve`]: Newton's method on all joints at once, of least kinetic energy (`tree_solve.rs`),
-//!   first order in Δt.
+//! The **adjustment** closes what the bodies' way, which is bent, has opened, and follows the hands, by one of two solvers:
+//!
+//! * [`PositionSolver::Relaxation`], the source's "compulsive motion": joint by joint outwards from what holds a piece, with a rule for two
+//!   bodies (`two_body_rule.rs`), one joint (`joint_closure.rs`), and groups along the mechanism (`walk.rs`, `relaxation.rs`). One
+//!   traversal closes a piece that is held in one place. What is held in several, or goes beyond a limit, is left to the other solver.
+//! * [`PositionSolver::TreeSolve`]: Newton's method on all joints at once, of least kinetic energy (`tree_solve.rs`). Where it does not
+//!   converge, relaxation by sweeps from every anchor in turn closes a tree from anywhere.
 //!
 //! Then penetrating contacts are separated and impulses applied (`contact_response.rs`); resting contacts slide, roll
 //! and spin (`resting_friction.rs`). Balls follow the source's slip ratio with Relaxation, Coulomb's law with
-//! TreeSolve. Velocities are v = (x_{k+1} − x_k)/Δt, so constrained dynamics can continue from any step, and vice
-//! versa.
+//! TreeSolve. Velocities are those of the update after the rule, else v = (x_{k+1} − x_k)/Δt. So constrained dynamics can continue from any
+//! step, and vice versa.
 //!
 //! κ is 1/(1 + c Δt) with the body's damping rate c, times [`Settings::retention`]. Breaking by load and pivot
 //! friction need forces and are not included; windows, triggers, breaths and springs act as always.
@@ -65,6 +68,8 @@ pub struct Procedural {
     tree: TreeSolve,
     contact_response: ContactResponse,
     report: SolveReport,
+    /// Bodies after the update.
+    free: Vec<RigidBody>,
     /// End of the last step, s.
     ended: f64,
 }
@@ -82,6 +87,7 @@ impl Procedural {
             tree: TreeSolve::new(dynamics.system_without_trains(), bodies.len()),
             contact_response: ContactResponse::new(dynamics),
             report: SolveReport::default(),
+            free: bodies.clone(),
             ended: f64::NAN,
         }
     }
@@ -119,8 +125,18 @@ impl Procedural {
         self.decay_targets(&mut step, dt, continues);
         step.system.activity.set_time(step.end_time);
         self.update(&mut step, dt);
-        self.report = self.adjust(&mut step, grabs);
+        self.project_update(&mut step, dt);
+        if self.settings.method == PositionSolver::Relaxation {
+            self.free.copy_from_slice(step.bodies);
+        }
+        self.report = match self.settings.method {
+            PositionSolver::Relaxation => self.adjust_by_rule(&mut step, grabs),
+            PositionSolver::TreeSolve => self.adjust(&mut step, grabs),
+        };
         self.lane_kernels.derive_velocities(step.system, step.bodies, &self.before, dt);
+        if self.settings.method == PositionSolver::Relaxation {
+            self.keep_update_velocities(step.bodies);
+        }
         if self.contact_response.is_empty() {
             return;
         }
@@ -129,20 +145,7 @@ impl Procedural {
             if !self.contact_response.detect(step.contacts, &self.before, step.bodies, pass) {
                 break;
             }
-            match self.settings.method {
-                PositionSolver::Relaxation => {
-                    self.contact_response.separate_directly(
-                        &mut self.relaxation,
-                        step.system,
-                        step.contacts,
-                        step.bodies,
-                        pass,
-                    );
-                }
-                PositionSolver::TreeSolve => {
-                    self.contact_response.separate_through_joints(step.system, step.bodies, pass)
-                }
-            }
+            self.contact_response.separate_through_joints(step.system, step.bodies, pass);
             pass = SeparationPass::Repeated;
             step.system.lane_blocks_mut().load(step.bodies);
             self.report = self.adjust(&mut step, grabs);
@@ -151,12 +154,38 @@ impl Procedural {
             PositionSolver::Relaxation => FrictionLaw::SlipRatio,
             PositionSolver::TreeSolve => FrictionLaw::Coulomb,
         };
-        let response_step = ResponseStep { dt, gravity: step.gravity.length(), friction };
+        let response_step = ResponseStep { dt, friction };
         let displaced =
             self.contact_response.apply_impulses(step.system, step.bodies, &self.before, response_step, step.impacts);
         self.lane_kernels.clamp_velocities(step.bodies);
         if displaced && !step.system.joints().is_empty() {
+            step.system.lane_blocks_mut().load(step.bodies);
             self.report = self.adjust(&mut step, grabs);
+        }
+    }
+
+    /// The update of the rule: velocities are projected on the joints before they move the bodies. The projection is of least kinetic
+    /// energy, so it adds none, and forces and momentum go through the joints. Only what the bodies' way bends is left to the rule.
+    fn project_update(&mut self, step: &mut PositionStep, dt: f64) {
+        // Positions of the step's start, velocities of its update.
+        self.checkpoint.copy_from_slice(&self.before);
+        for (state, body) in self.checkpoint.iter_mut().zip(step.bodies.iter()) {
+            (state.velocity, state.angular_velocity) = (body.velocity, body.angular_velocity);
+        }
+        step.system.evaluate(&self.checkpoint);
+        step.system.factor();
+        step.system.include_open_rows();
+        step.system.solve_velocity(&self.checkpoint);
+        step.system.apply_velocity(step.bodies);
+        step.system.lane_blocks_mut().load(step.bodies);
+        self.lane_kernels.displace(step.system, step.bodies, dt);
+    }
+
+    /// Velocities after the rule: those of the update, but for what a hand or several anchors hold, whose speed is in its displacement.
+    fn keep_update_velocities(&self, bodies: &mut [RigidBody]) {
+        for body in self.relaxation.closed_by_rule() {
+            bodies[body].velocity = self.free[body].velocity;
+            bodies[body].angular_velocity = self.free[body].angular_velocity;
         }
     }
 
@@ -181,19 +210,35 @@ impl Procedural {
         }
     }
 
-    /// Closes the joints from the lane blocks' state.
-    fn adjust(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
-        if self.settings.method == PositionSolver::Relaxation {
-            return self.adjust_by_rule(step, grabs);
-        }
-        let report = self.tree.adjust(step, grabs, &self.lane_kernels);
+    /// Closes the joints after the update: by the rule what is held in one place, by Newton's method what is held in several.
+    fn adjust_by_rule(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
+        let report = self.relaxation.adjust_by_rule(step, grabs, &self.tree.targets, self.settings.control);
         if report.converged() {
             return report;
         }
-        // Newton did not converge: the step was too long for linearisation, or the targets are out of reach.
-        // Relaxation closes a tree from anywhere.
+        step.system.lane_blocks_mut().load(step.bodies);
+        let closed = self.adjust(step, grabs);
+        SolveReport { passes: report.passes + closed.passes, ..closed }
+    }
+
+    /// Closes the joints from the lane blocks' state by Newton's method.
+    fn adjust(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
+        let report = self.tree.adjust(step, grabs, &self.lane_kernels);
+        // A hand that is out of reach is missed. What a hand alone holds is always within reach, and what is far may be.
+        let missed = report.outcome() == SolveOutcome::GrabOutOfReach
+            && report.grab_error <= RETRY_DISTANCE
+            && !self.relaxation.has_lone_grab(step, grabs);
+        if missed || report.converged() {
+            return report;
+        }
+        SolveReport { passes: report.passes, ..self.relax(step, grabs, report) }
+    }
+
+    /// After a Newton solve that did not converge: the step was too long for linearisation, or the targets are out of reach. Relaxation
+    /// closes a tree from anywhere.
+    fn relax(&mut self, step: &mut PositionStep, grabs: &[GrabTarget], report: SolveReport) -> SolveReport {
         self.checkpoint.copy_from_slice(step.bodies);
-        let mut last = self.relaxation.adjust(step, grabs, &self.tree.targets, None);
+        let mut last = self.relaxation.adjust(step, grabs, &self.tree.targets);
         let no_nearer = report.residual <= POSITION_TOLERANCE && last.grab_error >= report.grab_error;
         if last.residual > POSITION_TOLERANCE.max(report.residual) || no_nearer {
             // Not so a mechanism held in several places, or a grab out of reach.
@@ -213,35 +258,7 @@ impl Procedural {
             last = self.retry(step, &[], last, |_| true);
             last.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
         }
-        last.passes += report.passes;
         last
-    }
-
-    /// Closes the joints by relaxation. Joints take precedence: grabs that would open them are given up.
-    fn adjust_by_rule(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
-        let mut report = self.relaxation.adjust(step, grabs, &self.tree.targets, Some(self.settings.control));
-        for stays in [false, true] {
-            // Small errors without grabs are closed over the next steps.
-            if report.residual <= POSITION_TOLERANCE || (grabs.is_empty() && report.residual <= RETRY_DISTANCE) {
-                break;
-            }
-            if stays {
-                self.restore_start(step);
-                step.system.evaluate(step.bodies);
-                report.residual = step.system.largest_residual(&self.tree.targets);
-                report.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
-                if report.residual <= POSITION_TOLERANCE {
-                    break;
-                }
-            }
-            let alone = self.relaxation.adjust(step, &[], &self.tree.targets, None);
-            report = SolveReport {
-                passes: report.passes + alone.passes,
-                grab_error: relaxation::largest_grab_error(grabs, step.bodies),
-                ..alone
-            };
-        }
-        report
     }
 
     /// Puts all free bodies back where the step began.

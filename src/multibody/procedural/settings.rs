@@ -1,8 +1,7 @@
 //! Settings of position-based motion.
 
-/// Default of [`Settings::control`]: a long chain that falls for one step rotates none of its links; a hand at 1 m/s
-/// does.
-pub const DEFAULT_CONTROL: f64 = 10.0;
+/// Default of [`Settings::control`]: the rotation of least kinetic energy.
+pub const DEFAULT_CONTROL: f64 = 1.0;
 
 /// How joints are closed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,7 +18,8 @@ pub enum PositionSolver {
 pub struct Settings {
     /// How joints are closed.
     pub method: PositionSolver,
-    /// Control c of the compulsive rotation, from 0, no unit: the greater, the less bodies rotate when pulled.
+    /// Control c of the compulsive rotation, from 0, no unit: the greater, the less bodies rotate when pulled. 1 is
+    /// the rotation of least kinetic energy.
     pub control: f64,
     /// Fraction of the velocity kept per step besides the bodies' own damping, 0 … 1.
     pub retention: f64,

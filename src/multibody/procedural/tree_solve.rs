@@ -50,6 +50,8 @@ const MAX_ROTATION: f64 = 0.7;
 const LIMIT_MARGIN: f64 = 1e-9;
 /// γ, relative softness of the extra rows.
 const SOFTNESS: f64 = 1e-4;
+/// Error of a row at which Newton's passes end, m or rad: a joint of several rows is then within [`POSITION_TOLERANCE`].
+const CLOSED: f64 = 0.3 * POSITION_TOLERANCE;
 /// Rows of a grab, and most extra rows.
 const GRAB_ROWS: usize = 3;
 const MAX_EXTRA_ROWS: usize = GRAB_ROWS * MAX_GRABS + 12;
@@ -113,18 +115,19 @@ impl TreeSolve {
         system.evaluate_lane_blocks(bodies);
         system.include_open_rows();
         loop {
-            report.residual = system.largest_residual(&self.targets);
+            let passed = contacts.largest_violation(bodies);
+            report.residual = system.largest_residual(&self.targets).max(passed);
             report.grab_error = largest_grab_error(grabs, bodies);
             // A grab that makes no progress is out of reach: from then on the joints take precedence.
             if following_grabs && report.passes % STALL_PASSES == 0 {
-                following_grabs = report.grab_error > POSITION_TOLERANCE
-                    && report.grab_error <= STALL_RATIO * before
+                following_grabs = report.grab_error <= POSITION_TOLERANCE.max(STALL_RATIO * before)
                     && report.passes < MAX_GRAB_PASSES;
                 before = report.grab_error;
             }
-            let passed = (0..contacts.bound_count()).fold(0.0, |most: f64, b| most.max(-contacts.bound_gap(b, bodies)));
-            let worst = report.residual.max(passed).max(if following_grabs { report.grab_error } else { 0.0 });
-            if worst <= POSITION_TOLERANCE || free_passes == MAX_FREE_PASSES {
+            let worst = report.residual.max(if following_grabs { report.grab_error } else { 0.0 });
+            if report.residual <= CLOSED && (!following_grabs || report.grab_error <= POSITION_TOLERANCE)
+                || free_passes == MAX_FREE_PASSES
+            {
                 return report;
             }
             free_passes += usize::from(!following_grabs);

@@ -29,6 +29,8 @@ pub struct Visit {
     pub joint: Option<usize>,
     /// Mass of the body and of everything beyond it, kg.
     pub group_mass: f64,
+    /// Visits that are reached from it, within the walk.
+    pub next: (usize, usize),
     /// Index of the visit that it was reached from.
     from: usize,
 }
@@ -147,6 +149,20 @@ impl Walks {
         self.loops.extend((0..self.acts.len()).filter(|&joint| self.acts[joint] && !self.used[joint]));
     }
 
+    /// The piece of a body that is not kinematic.
+    pub fn piece(&self, body: usize) -> usize {
+        self.piece[body]
+    }
+
+    /// The walks of the pieces that are held in one place.
+    pub fn lone(&self) -> impl Iterator<Item = &Walk> {
+        let of = |k: usize| self.walks.get(k).map(|walk| walk.piece);
+        let lone = move |(k, walk): &(usize, &Walk)| {
+            (*k == 0 || of(k - 1) != Some(walk.piece)) && of(k + 1) != Some(walk.piece)
+        };
+        self.walks.iter().enumerate().filter(lone).map(|(_, walk)| walk)
+    }
+
     /// Free body of an active joint to the ground.
     fn grounded_body(&self, system: &System, joint: usize) -> Option<usize> {
         let link = system.joints()[joint].link;
@@ -168,10 +184,11 @@ impl Walks {
         self.seen.fill(false);
         self.seen[root] = true;
         let first = self.visits.len();
-        self.visits.push(Visit { body: root, joint: None, group_mass: mass(root), from: first });
+        self.visits.push(Visit { body: root, joint: None, group_mass: mass(root), next: (1, 1), from: first });
         let mut head = first;
         while head < self.visits.len() {
             let body = self.visits[head].body;
+            let next = self.visits.len() - first;
             for &joint in &self.beside[body] {
                 let link = system.joints()[joint].link;
                 let other = if link.a == body { link.b } else { Some(link.a) };
@@ -179,8 +196,10 @@ impl Walks {
                     continue;
                 };
                 self.seen[other] = true;
-                self.visits.push(Visit { body: other, joint: Some(joint), group_mass: mass(other), from: head });
+                let group_mass = mass(other);
+                self.visits.push(Visit { body: other, joint: Some(joint), group_mass, next: (0, 0), from: head });
             }
+            self.visits[head].next = (next, self.visits.len() - first);
             head += 1;
         }
         for k in (first + 1..self.visits.len()).rev() {

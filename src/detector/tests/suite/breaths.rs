@@ -3,12 +3,12 @@
 use super::estimates;
 use soffio_detector::{BlowDetector, Room};
 use soffio_math::noise::Random;
+use soffio_soundscape::RATE;
 use soffio_soundscape::breath::Breath;
 use soffio_soundscape::draught::Draught;
 use soffio_soundscape::microphone::Microphone;
 use soffio_soundscape::scenes::{Scenario, Stage};
 use soffio_soundscape::test_sounds as sounds;
-use soffio_soundscape::RATE;
 
 /// Longest time from the air at the capsule to wind, s: nine in ten breaths must not wait longer.
 const LATENCY_S: f64 = 0.3;

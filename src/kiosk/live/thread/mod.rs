@@ -61,7 +61,7 @@ impl Thread {
             limit: options.steps.unwrap_or(u64::MAX),
             recorded: options.recording.is_some(),
             files,
-            motion: MotionChoice::new(options.mode, options.exhibit.motion),
+            motion: MotionChoice::new(options.mode, &options.exhibit),
             playback: Playback::start(&site, &options.exhibit, options.closed),
             microphone: MicrophoneInput::new(options.closed),
             controllers: Controllers::start(&site.controllers),
@@ -174,7 +174,7 @@ impl Thread {
     /// Starts another exhibit with its own sounds.
     fn swap(&mut self, exhibit: Arc<Exhibit>) {
         self.playback.swap(&exhibit);
-        self.motion.swap(exhibit.motion);
+        self.motion.swap(&exhibit);
         self.files.end(&self.stage);
         self.stage.swap(exhibit, local_time());
         self.restart();

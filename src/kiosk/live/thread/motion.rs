@@ -2,7 +2,7 @@
 
 use super::super::live_state::RunStatus;
 use crate::step::governor::Governor;
-use soffio_exhibit::Motion;
+use soffio_exhibit::{Exhibit, Motion};
 use soffio_simulation::{MotionMode, STEPS_PER_SECOND};
 
 /// Solver of the next step.
@@ -12,15 +12,24 @@ pub(super) struct MotionChoice {
     governor: Governor,
 }
 
+/// Motion of an exhibit as far as it allows another one; logs where it does not move as the command line says.
+fn allowed(fixed: Option<MotionMode>, exhibit: &Exhibit) -> Motion {
+    let Some(why) = Motion::refusal(&exhibit.constraints) else { return exhibit.motion };
+    if fixed.is_some_and(|mode| mode != MotionMode::Dynamic) {
+        tracing::warn!("{} moves by dynamics alone: {why}", exhibit.id);
+    }
+    Motion::Dynamics
+}
+
 impl MotionChoice {
     /// For an exhibit; `fixed` takes precedence over its own choice and the governor's.
-    pub(super) fn new(fixed: Option<MotionMode>, motion: Motion) -> Self {
-        Self { fixed, governor: Governor::new(motion) }
+    pub(super) fn new(fixed: Option<MotionMode>, exhibit: &Exhibit) -> Self {
+        Self { fixed, governor: Governor::new(allowed(fixed, exhibit)) }
     }
 
     /// Another exhibit.
-    pub(super) fn swap(&mut self, motion: Motion) {
-        self.governor = Governor::new(motion);
+    pub(super) fn swap(&mut self, exhibit: &Exhibit) {
+        self.governor = Governor::new(allowed(self.fixed, exhibit));
     }
 
     /// Solver of the next step; `None` is the exhibit's own.

@@ -162,6 +162,11 @@ impl Contacts {
         self.limits.gap(bound, bodies)
     }
 
+    /// Largest distance beyond a bound, rad or m; 0 where all limits are kept.
+    pub fn largest_violation(&self, bodies: &[RigidBody]) -> f64 {
+        (0..self.bound_count()).fold(0.0, |most, bound| -self.bound_gap(bound, bodies).min(-most))
+    }
+
     /// Distance from a bound, rad or m, and its Jacobian row.
     pub fn bound(&self, bound: usize, bodies: &[RigidBody]) -> (f64, [Option<(usize, Vec6)>; MAX_ROW_BODIES]) {
         let BoundRow { gap, row, .. } = self.limits.row(bound, bodies);

@@ -5,6 +5,7 @@ mod chains;
 mod contact_response;
 mod grabs;
 mod mechanisms;
+mod swings;
 mod two_body_rule;
 
 use soffio_geometry::bodies::RigidBody;
