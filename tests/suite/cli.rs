@@ -230,7 +230,7 @@ fn a_clock_by_positions_is_refused_with_the_reason() {
     let sidecar = std::fs::read_to_string(folder.join("exhibit.toml")).expect("a sidecar");
     let sidecar = sidecar.replacen("[solver]\n", "", 1) + "\n[solver]\nmotion = \"procedural\"\n";
     std::fs::write(folder.join("exhibit.toml"), sidecar).expect("a writable folder");
-    desk.soffio(&["play", "clock", "--seconds", "1"]).refused(2, &["E0266", "gears", "motion = \"dynamics\""]);
+    desk.soffio(&["play", "clock", "--seconds", "1"]).refused(1, &["E0266", "gears", "motion = \"dynamics\""]);
 }
 
 #[test]

@@ -79,7 +79,8 @@ fn run(exhibit: &Arc<Exhibit>, mode: MotionMode, act: Act) -> Seen {
 fn every_exhibit_moves_by_every_solver_or_says_why_not() {
     /// Hits beyond twice those of dynamics: chaos makes and unmakes a few.
     const FEW: u64 = 12;
-    /// What rests later than dynamics does, s.
+    /// A figure that is let go rests at most so much later than by dynamics, s. After a breath pivot friction would calm it, which only
+    /// dynamics has.
     const LATER: f64 = 1.0;
     let names = exhibit::ids();
     let problems: Vec<Vec<String>> = parallel(names, |name| {
@@ -99,7 +100,7 @@ fn every_exhibit_moves_by_every_solver_or_says_why_not() {
                     (seen.faults > 0, "faults"),
                     (!opens && seen.joint_error > JOINT, "joint error"),
                     (seen.impacts > 2 * dynamics.impacts + FEW, "impacts"),
-                    (seen.moved_until > (dynamics.moved_until + LATER).max(ACTS_S + AFTER_S - 1.0), "rest"),
+                    (act == Act::Drag && seen.moved_until > dynamics.moved_until + LATER, "rest"),
                 ];
                 let found = bad.into_iter().filter(|(is, _)| *is);
                 problems.extend(
