@@ -97,6 +97,16 @@ impl Function {
         }
     }
 
+    /// First time after `t` (s) at which its rate jumps; infinite where it never does again.
+    pub fn next_jump(&self, t: f64) -> f64 {
+        match self {
+            Self::Keys { keys, interpolation: Interpolation::Linear, repeat } if !keys.is_empty() => {
+                next_key(keys.len(), |i| keys[i].0, *repeat, t)
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
     /// Is it the same at all times?
     #[inline]
     pub fn is_constant(&self) -> bool {
@@ -109,6 +119,9 @@ impl From<f64> for Function {
         Self::Constant(value)
     }
 }
+
+/// Time before a key that counts as the key, s: times that are sums of steps round by less.
+pub const AT_KEY_S: f64 = 1e-9;
 
 /// The span between two keys that holds a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -127,20 +140,35 @@ pub struct Span {
 pub fn span(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> Result<Span, usize> {
     let (first, last) = (time(0), time(count - 1));
     let length = last - first;
-    let t = if repeat && length > 0.0 { first + (t - first) - length * ((t - first) / length).floor() } else { t };
-    if t < first {
+    let t = if repeat && length > 0.0 {
+        first + (t - first) - length * ((t - first + AT_KEY_S) / length).floor()
+    } else {
+        t
+    };
+    if t + AT_KEY_S < first {
         return Err(0);
     }
     let (mut low, mut high) = (0, count);
     while low < high {
         let middle = (low + high) / 2;
-        if time(middle) <= t {
+        if time(middle) <= t + AT_KEY_S {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    if low == count { Err(count - 1) } else { Ok(Span { key: low - 1, since: t - time(low - 1) }) }
+    if low == count { Err(count - 1) } else { Ok(Span { key: low - 1, since: (t - time(low - 1)).max(0.0) }) }
+}
+
+/// Time of the first of such keys after `t`, s; infinite where there is none.
+pub fn next_key(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> f64 {
+    let length = if repeat { time(count - 1) - time(0) } else { 0.0 };
+    match span(count, &time, repeat, t) {
+        Ok(Span { key, since }) => t - since + time(key + 1) - time(key),
+        Err(_) if t + AT_KEY_S < time(0) => time(0),
+        Err(_) if length > 0.0 => t + length,
+        Err(_) => f64::INFINITY,
+    }
 }
 
 /// First and second derivative at a key: of the parabola through it and its neighbours, given the means of the rates

@@ -5,11 +5,11 @@
 use super::KinematicBody;
 use super::forces::{Damping, Springs, Wrenches};
 use super::lane_kernels::{AddVelocityChange, ApplyForces, WriteBack, run_kernel};
-use crate::articulation::System;
+use crate::articulation::{Constraint, ConstraintKind, System};
 use soffio_geometry::bodies::RigidBody;
-use soffio_math::DVec3;
 use soffio_math::lanes::Four;
 use soffio_math::spatial::{Vec6, angular, linear};
+use soffio_math::{DVec3, Function, Interpolation};
 
 /// Joints open by more than this are projected twice, m or rad: Newton's error is the square of it.
 const COARSE: f64 = 1e-7;
@@ -78,12 +78,28 @@ pub(super) struct Equations {
     damping: Vec<[Four; 2]>,
     /// External wrenches of the present step.
     pub wrenches: Wrenches,
+    /// Functions of constraints whose rate jumps.
+    jumping: Vec<Function>,
     /// World acceleration, m/s².
     gravity: DVec3,
     /// 1/ω₀ of the stabiliser, s.
     stabilization_time: f64,
     /// At which state the rows were evaluated last.
     pub evaluated: Evaluated,
+}
+
+/// The function of time in a constraint.
+fn function(constraint: &Constraint) -> Option<&Function> {
+    match &constraint.kind {
+        ConstraintKind::PointOnPlane { offset, .. } => Some(offset),
+        ConstraintKind::Orientation { angle, .. } => Some(angle),
+        _ => None,
+    }
+}
+
+/// Does its rate ever jump?
+fn jumps(function: &&Function) -> bool {
+    matches!(function, Function::Keys { interpolation: Interpolation::Linear, .. })
 }
 
 impl Equations {
@@ -104,6 +120,7 @@ impl Equations {
                 .collect(),
             kinematic_accelerations: kinematic_bodies.iter().map(|kinematic| (kinematic.body, [0.0; 6])).collect(),
             wrenches: Wrenches::new(damping.len()),
+            jumping: system.constraints().iter().filter_map(function).filter(jumps).cloned().collect(),
             system,
             without_trains,
             springs,
@@ -154,6 +171,23 @@ impl Equations {
             self.system.a[*body] = *a;
         }
         self.system.solve_acceleration(bodies, 1.0 / self.stabilization_time);
+    }
+
+    /// First time after `t` (s) at which the velocity of a driver, or the rate of a constraint's function, jumps.
+    pub fn next_jump(&self, t: f64) -> f64 {
+        let drivers = self.kinematic_bodies.iter().map(|kinematic| kinematic.motion.next_jump(t));
+        drivers.chain(self.jumping.iter().map(|function| function.next_jump(t))).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Gives what hangs on a driver whose velocity jumps at the time `t` its new velocity: the impulse of least kinetic energy.
+    pub fn jump(&mut self, bodies: &mut [RigidBody], t: f64) {
+        self.place_kinematic_bodies(bodies, t);
+        self.system.evaluate_without_trains(bodies);
+        self.system.classify_rows();
+        self.system.factor();
+        self.system.solve_velocity(bodies);
+        self.system.apply_velocity(bodies);
+        self.evaluated = Evaluated::Nothing;
     }
 
     /// Moves kinematic bodies to their states at the time `t`.

@@ -7,7 +7,9 @@
 //! ṗ = ṡ (p₁ − p₀)      p̈ = s̈ (p₁ − p₀)      ω = ṡ w      ω̇ = s̈ w
 //! ```
 //!
-//! with s(t) as in [`soffio_math::Function`]. A *spline* is the quintic of that module in p and in the rotation vector
+//! with s(t) as in [`soffio_math::Function`], where a step is a smooth way within the last [`STEP_S`] before its key. Where the velocity
+//! jumps, at the keys of a straight way, substeps end ([`KeyframeMotion::next_jump`]) and the joints' projection gives what hangs on the
+//! body its new velocity: an impulse. A *spline* is the quintic of that module in p and in the rotation vector
 //! φ(t) from R₀, R(t) = `exp([φ]×)` R₀. With θ = |φ|, a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³
 //!
 //! ```text
@@ -19,10 +21,13 @@
 //! span from the ω and ω̇ of its key. Velocities and accelerations have no jumps.
 
 use soffio_geometry::bodies::RigidBody;
-use soffio_math::function::{Span, easing, knot, neighbours, quintic, span};
+use soffio_math::function::{Span, easing, knot, neighbours, next_key, quintic, span};
 use soffio_math::spatial::{Vec6, vec6};
 use soffio_math::{DQuat, DVec3, Pose, rotation, rotation_vector, sincos};
 use soffio_math::{Interpolation, Jet3};
+
+/// Time in which a driver with stepped keys moves to the next key, and arrives with it, s: what it carries cannot be in two places at once.
+pub const STEP_S: f64 = 0.1;
 
 /// A kinematic body: it follows its motion whatever forces act on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,7 +93,13 @@ impl KeyframeMotion {
             return self.spline(found);
         }
         let ((t0, from), (t1, to)) = (self.keys[found.key], self.keys[found.key + 1]);
-        let Jet3 { value, rate, acceleration } = easing(self.interpolation, t1 - t0, found.since);
+        let Jet3 { value, rate, acceleration } = match self.interpolation {
+            Interpolation::Step => {
+                let moving = STEP_S.min(t1 - t0);
+                easing(Interpolation::Smooth, moving, (found.since - (t1 - t0 - moving)).max(0.0))
+            }
+            interpolation => easing(interpolation, t1 - t0, found.since),
+        };
         let displacement = to.position - from.position;
         let rotation_total = rotation_between(from.rotation, to.rotation);
         KinematicState {
@@ -101,6 +112,14 @@ impl KeyframeMotion {
             acceleration: acceleration * displacement,
             angular_acceleration: acceleration * rotation_total,
         }
+    }
+
+    /// First time after `t` (s) at which its velocity jumps; infinite where it never does again.
+    pub fn next_jump(&self, t: f64) -> f64 {
+        if self.interpolation != Interpolation::Linear || self.keys.is_empty() {
+            return f64::INFINITY;
+        }
+        next_key(self.keys.len(), |i| self.keys[i].0, self.repeat, t)
     }
 
     fn spline(&self, Span { key, since }: Span) -> KinematicState {

@@ -14,6 +14,7 @@ use super::sleep::Sleep;
 use super::work_budget::WorkBudget;
 use crate::articulation::LoadKind;
 use soffio_geometry::bodies::RigidBody;
+use soffio_math::function::AT_KEY_S;
 use soffio_math::spatial::Vec6;
 
 /// Limits of a substep's length.
@@ -94,6 +95,8 @@ struct RemainingStep {
     now: f64,
     /// Seconds of the step that are left.
     left: f64,
+    /// Next time at which a driver's velocity jumps, s since reset.
+    jump: f64,
     /// Length of the whole step, s.
     dt: f64,
     scheme: ImpactScheme,
@@ -124,10 +127,15 @@ impl Dynamics {
                 break;
             }
             let now = self.time + done;
+            if self.equations.next_jump(now - 2.0 * AT_KEY_S) <= now + AT_KEY_S {
+                self.equations.jump(&mut self.bodies, now);
+                self.integration.interrupt();
+            }
             self.evaluate_first_stage(now);
             let exhausted = self.budget.is_exhausted() && !self.contacts.is_empty();
             let scheme = if exhausted { ImpactScheme::TimeStepping } else { ImpactScheme::EventDriven };
-            let h = self.next_substep_length(RemainingStep { now, left: dt - done, dt, scheme });
+            let jump = self.equations.next_jump(now);
+            let h = self.next_substep_length(RemainingStep { now, left: dt - done, jump, dt, scheme });
             self.set_activations(now + 0.5 * h);
             let span = SubstepSpan { start: done, h };
             done += match scheme {
@@ -164,9 +172,9 @@ impl Dynamics {
     }
 
     /// Length of the next substep, s.
-    fn next_substep_length(&self, RemainingStep { now, left, dt, scheme }: RemainingStep) -> f64 {
+    fn next_substep_length(&self, RemainingStep { now, left, jump, dt, scheme }: RemainingStep) -> f64 {
         let Equations { system, springs, .. } = &self.equations;
-        let edge = system.activity.next_edge(now).min(springs.activity.next_edge(now));
+        let edge = system.activity.next_edge(now).min(springs.activity.next_edge(now)).min(jump);
         let left = left.min((edge - now).max(dt / LIMITS.edges));
         let count = (left / self.longest_substep(dt, scheme)).ceil().max(1.0);
         left / count

@@ -4,6 +4,7 @@
 mod clutches;
 mod gears;
 mod joints;
+mod jumps;
 mod loops;
 mod pendulums;
 mod reference;
