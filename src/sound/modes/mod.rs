@@ -11,6 +11,7 @@ mod bars;
 mod beam;
 mod eigen;
 mod limits;
+mod membrane;
 mod mode;
 mod plate;
 mod random;
@@ -19,6 +20,7 @@ mod string;
 
 pub use beam::{BeamMode, Section, beam_modes};
 pub use limits::{HIGHEST, T60_DECAYS};
+pub use membrane::zeros as membrane_zeros;
 pub use mode::Mode;
 pub(super) use mode::ModeError;
 pub use plate::{PlateMode, free_plate_modes};
@@ -45,12 +47,13 @@ pub(super) fn modes(modal: &Modal, spec: &InstrumentSpec, shared: &mut Shared) -
     let mut modes = match &modal.source {
         Source::Plate(plate) => plate_partials(&Matter::new(spec, &plate.material), modal, shared)?,
         Source::Mesh(mesh) => mesh_partials(&Matter::new(spec, &mesh.material), modal, shared)?,
-        Source::Table(table) => tabled(table, modal.support_loss),
+        Source::Table(table) => sized(tabled(table), table.radius, modal, spec),
         Source::Tube(tube) => bars::tube(tube, &Matter::new(spec, &tube.material), modal)?,
         Source::Bar(bar) => bars::bar(bar, &Matter::new(spec, &bar.material), modal)?,
         Source::String(given) => string::string(given, &Matter::new(spec, &given.material), modal)?,
         Source::MassSpring(spring) => string::mass_spring(spring, &spec.body, modal.support_loss)?,
-        Source::Random(drawn) => random::partials(drawn, modal),
+        Source::Membrane(head) => sized(membrane::partials(head, modal.partials), Some(head.radius), modal, spec),
+        Source::Random(drawn) => sized(random::partials(drawn, modal), drawn.radius, modal, spec),
     };
     modes.truncate(modal.partials);
     Ok((modes, outline_exponent(&spec.body)))
@@ -94,10 +97,24 @@ fn mesh_partials(matter: &Matter, modal: &Modal, shared: &mut Shared) -> Result<
     }
 }
 
-fn tabled(table: &Table, support_loss: f64) -> Vec<Mode> {
+/// Partials of a body of another size: of bodies of one form and material, all frequencies go with 1/size (elasticity has no length of
+/// its own), and so do decays, as each loses the same share of its energy a period. The support takes its part besides.
+fn sized(mut modes: Vec<Mode>, radius: Option<f64>, modal: &Modal, spec: &InstrumentSpec) -> Vec<Mode> {
+    let [long, wide] = spec.body.half_extents;
+    let size = (long * wide).sqrt();
+    let ratio = radius.filter(|_| size > 0.0).map_or(1.0, |radius| radius / size);
+    for mode in &mut modes {
+        mode.frequency *= ratio;
+        mode.decay = ratio * mode.decay + modal.support_loss;
+    }
+    modes.retain(|mode| mode.frequency <= HIGHEST);
+    modes
+}
+
+fn tabled(table: &Table) -> Vec<Mode> {
     let partial = |p: &super::timbre::TablePartial| Mode {
         frequency: table.fundamental * p.ratio,
-        decay: T60_DECAYS / p.t60 + support_loss,
+        decay: T60_DECAYS / p.t60,
         amplitude: p.gain,
         shape: Shape::Even,
     };

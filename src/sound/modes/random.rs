@@ -26,7 +26,7 @@ pub(super) fn partials(drawn: &Drawn, modal: &Modal) -> Vec<Mode> {
                 Spacing::Octaves => drawn.low * pow(drawn.high / drawn.low, share),
             };
             let spread = exp(random.signed() * ln(drawn.t60_spread));
-            let decay = (c_low + slope * (frequency * frequency - drawn.low * drawn.low)) * spread + modal.support_loss;
+            let decay = (c_low + slope * (frequency * frequency - drawn.low * drawn.low)) * spread;
             let octaves = ln(frequency / drawn.low) / ln(2.0);
             let level = pow(10.0, drawn.tilt * octaves / 20.0) * (-2.0 * ln(1.0 - random.unit())).sqrt();
             let waves = (frequency / drawn.low).sqrt();

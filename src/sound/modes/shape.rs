@@ -38,6 +38,15 @@ pub enum Shape {
     Beam(BeamMode, Option<f64>),
     /// Half waves between two ends, √2 sin(nπx): a string's.
     String(usize),
+    /// A circular membrane's: J_m(j r) times a norm, r the distance from the centre over the radius.
+    Membrane {
+        /// m.
+        order: i32,
+        /// j.
+        zero: f64,
+        /// The norm.
+        over: f64,
+    },
     /// √2 cos of a wave over the body: as many half waves along and across, and a phase. For shapes drawn by chance.
     Wave([f64; 2], f64),
 }
@@ -47,7 +56,7 @@ impl Shape {
     pub(crate) fn per_root_mass(&self, place: &Place, mass: f64) -> f64 {
         match self {
             Self::Plate(_) | Self::Beam(..) => self.at(place),
-            Self::Even | Self::String(_) | Self::Wave(..) => self.at(place) / mass.sqrt(),
+            Self::Even | Self::String(_) | Self::Membrane { .. } | Self::Wave(..) => self.at(place) / mass.sqrt(),
         }
     }
 
@@ -65,6 +74,7 @@ impl Shape {
                 turned * mode.shape(0.5 * x)
             }
             Self::String(n) => std::f64::consts::SQRT_2 * sin(PI * *n as f64 * 0.5 * (x + 1.0)),
+            Self::Membrane { order, zero, over } => over * libm::jn(*order, zero * (x * x + y * y).sqrt().min(1.0)),
             Self::Wave([kx, ky], phase) => std::f64::consts::SQRT_2 * cos(0.5 * PI * (kx * x + ky * y) + phase),
         }
     }

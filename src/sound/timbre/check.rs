@@ -124,6 +124,7 @@ impl Modal {
             Source::Mesh(mesh) => mesh.material.check(),
             Source::Table(table) => {
                 need(positive(table.fundamental), "fundamental", "must be above 0, Hz")?;
+                length(table.radius, "radius")?;
                 let count = (1..=MAX_PARTIALS).contains(&table.table.len());
                 need(count, "table", "a table has 1 to 1024 partials")?;
                 let fine = |p: &TablePartial| positive(p.ratio) && positive(p.t60) && p.gain.is_finite();
@@ -160,19 +161,35 @@ impl Modal {
                 need(spring.mass.is_none_or(positive), "mass", "must be above 0, kg")?;
                 need(positive(spring.t60), "t60", "must be above 0, s")
             }
+            Source::Membrane(membrane) => {
+                need(positive(membrane.fundamental), "fundamental", "must be above 0, Hz")?;
+                need(positive(membrane.radius), "radius", "must be above 0, m")?;
+                let high = membrane.high.is_finite() && membrane.high > membrane.fundamental;
+                need(high, "high", "must be above the fundamental, Hz")?;
+                falling(membrane.t60)?;
+                tilted(membrane.tilt)
+            }
             Source::Random(drawn) => drawn.check(),
         }
     }
+}
+
+fn falling([first, last]: [f64; 2]) -> Result<(), Problem> {
+    need(positive(first) && positive(last) && last <= first, "t60", "must be [at low, at high], falling, s")
+}
+
+fn tilted(tilt: f64) -> Result<(), Problem> {
+    need(tilt.abs() <= 60.0, "tilt", "must be −60 to 60 dB per octave")
 }
 
 impl Drawn {
     fn check(&self) -> Result<(), Problem> {
         need(positive(self.low), "low", "must be above 0, Hz")?;
         need(self.high.is_finite() && self.high > self.low, "high", "must be above low, Hz")?;
-        let [first, last] = self.t60;
-        need(positive(first) && positive(last) && last <= first, "t60", "must be [at low, at high], falling, s")?;
+        need(self.radius.is_none_or(positive), "radius", "must be above 0, m")?;
+        falling(self.t60)?;
         need((1.0..=10.0).contains(&self.t60_spread), "t60_spread", "must be 1 to 10")?;
-        need(self.tilt.abs() <= 60.0, "tilt", "must be −60 to 60 dB per octave")
+        tilted(self.tilt)
     }
 }
 

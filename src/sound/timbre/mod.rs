@@ -23,7 +23,7 @@ pub(super) use number::{Inputs, Player};
 pub use preset::Preset;
 pub use shipped::{names, source};
 pub use source::{
-    Bar, BeamModel, Common, Drawn, MassSpring, MaterialOverride, Mesh, Modal, Plate, Source, Spacing, Strung, Table,
-    TablePartial, Tube,
+    Bar, BeamModel, Common, Drawn, MassSpring, MaterialOverride, Membrane, Mesh, Modal, Plate, Source, Spacing, Strung,
+    Table, TablePartial, Tube,
 };
 pub use specimen::{Shape as SpecimenShape, Specimen};

@@ -125,6 +125,7 @@ fn modal(name: &str, path: &str, mut table: Table) -> Result<Modal, TimbreError>
         "bar" => Source::Bar(read(name, path, table, &COMMON)?),
         "string" => Source::String(read(name, path, table, &COMMON)?),
         "mass-spring" => Source::MassSpring(read(name, path, table, &COMMON)?),
+        "membrane" => Source::Membrane(read(name, path, table, &COMMON)?),
         "random" => Source::Random(read(name, path, table, &COMMON)?),
         _ => Source::Mesh(read(name, path, table, &COMMON)?),
     };

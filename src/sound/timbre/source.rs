@@ -72,6 +72,8 @@ pub enum Source {
     String(Strung),
     /// One mass on one spring: f = √(k/m) / 2π.
     MassSpring(MassSpring),
+    /// A circular membrane, such as a drum's head; the place of the hit is heard.
+    Membrane(Membrane),
     /// Random partials from stated distributions, for bodies with too many to distinguish.
     Random(Drawn),
     /// What the body's own dimensions say: a sheet is a plate, what is long a tube or a bar.
@@ -79,7 +81,8 @@ pub enum Source {
 }
 
 /// Names of the sources.
-pub(super) const SOURCES: [&str; 8] = ["plate", "table", "tube", "bar", "string", "mass-spring", "random", "mesh"];
+pub(super) const SOURCES: [&str; 9] =
+    ["plate", "table", "tube", "bar", "string", "mass-spring", "membrane", "random", "mesh"];
 
 /// Numbers of a material; what is not said is the body's.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq)]
@@ -112,6 +115,9 @@ pub struct Plate {
 pub struct Table {
     /// Frequency of ratio 1, Hz.
     pub fundamental: f64,
+    /// Radius of the body that these partials are of, m. Of bodies of one form and material frequencies go with 1/size, and so do
+    /// decays. Without it every body has these.
+    pub radius: Option<f64>,
     /// The partials.
     pub table: Vec<TablePartial>,
 }
@@ -223,6 +229,23 @@ pub struct MassSpring {
     pub t60: f64,
 }
 
+/// A circular membrane under tension: f = j/(2π a) √(T/σ), j the zeros of Bessel's functions.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Membrane {
+    /// Frequency of the lowest mode at `radius`, Hz.
+    pub fundamental: f64,
+    /// Radius of that membrane, m; others of the same tension and skin have frequencies that go with 1/size.
+    pub radius: f64,
+    /// T60 of the lowest mode and at `high`, s; c = c₀ + c₂ ω² between.
+    pub t60: [f64; 2],
+    /// Frequency of the second T60, Hz.
+    pub high: f64,
+    /// Level over frequency, dB per octave: low modes move more air.
+    #[serde(default)]
+    pub tilt: f64,
+}
+
 /// Partials drawn by chance.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
 #[serde(deny_unknown_fields)]
@@ -231,6 +254,9 @@ pub struct Drawn {
     pub low: f64,
     /// Highest frequency, Hz.
     pub high: f64,
+    /// Radius of the body that these partials are of, m. Of bodies of one form and material frequencies go with 1/size, and so do
+    /// decays. Without it every body has these.
+    pub radius: Option<f64>,
     /// How they lie between.
     #[serde(default)]
     pub spacing: Spacing,
