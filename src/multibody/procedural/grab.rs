@@ -47,8 +47,10 @@ pub enum SolveOutcome {
 pub struct SolveReport {
     /// Newton passes and relaxation sweeps.
     pub passes: u32,
-    /// Largest joint error or violation of a limit, m or rad.
+    /// Largest joint error, m or rad.
     pub residual: f64,
+    /// Largest distance beyond a limit, m or rad.
+    pub beyond: f64,
     /// Largest distance of a grabbed point from its target, m.
     pub grab_error: f64,
 }

@@ -213,7 +213,7 @@ impl Procedural {
     /// Closes the joints after the update: by the rule what is held in one place, by Newton's method what is held in several.
     fn adjust_by_rule(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
         let report = self.relaxation.adjust_by_rule(step, grabs, &self.tree.targets, self.settings.control);
-        if report.converged() {
+        if report.converged() && report.beyond <= POSITION_TOLERANCE {
             return report;
         }
         step.system.lane_blocks_mut().load(step.bodies);
@@ -247,10 +247,14 @@ impl Procedural {
         } else if !last.converged() && last.grab_error <= RETRY_DISTANCE {
             last = self.retry(step, grabs, last, SolveReport::converged);
         }
-        if last.residual > POSITION_TOLERANCE {
-            // Joints take precedence over grabs.
-            let before = last.residual;
-            last = self.retry(step, &[], last, |report| report.residual < before);
+        if last.residual.max(last.beyond) > POSITION_TOLERANCE {
+            // Joints take precedence over grabs, and over limits.
+            let before = last;
+            let nearer = |report: &SolveReport| match before.residual > POSITION_TOLERANCE {
+                true => report.residual < before.residual,
+                false => report.residual <= POSITION_TOLERANCE && report.beyond < before.beyond,
+            };
+            last = self.retry(step, &[], last, nearer);
             last.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
         }
         if last.residual > POSITION_TOLERANCE {

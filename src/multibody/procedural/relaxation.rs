@@ -110,7 +110,8 @@ impl Relaxation {
         system.evaluate(bodies);
         SolveReport {
             passes: 1,
-            residual: system.largest_residual(targets).max(contacts.largest_violation(bodies)),
+            residual: system.largest_residual(targets),
+            beyond: contacts.largest_violation(bodies),
             grab_error: largest_grab_error(grabs, bodies),
         }
     }
@@ -135,10 +136,11 @@ impl Relaxation {
             system.evaluate(bodies);
             report = SolveReport {
                 passes: sweep as u32 + 1,
-                residual: system.largest_residual(targets).max(contacts.largest_violation(bodies)),
+                residual: system.largest_residual(targets),
+                beyond: contacts.largest_violation(bodies),
                 grab_error: largest_grab_error(grabs, bodies),
             };
-            let open = report.residual.max(report.grab_error);
+            let open = report.residual.max(report.beyond).max(report.grab_error);
             if open <= POSITION_TOLERANCE {
                 break;
             }

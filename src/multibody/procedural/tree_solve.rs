@@ -115,8 +115,8 @@ impl TreeSolve {
         system.evaluate_lane_blocks(bodies);
         system.include_open_rows();
         loop {
-            let passed = contacts.largest_violation(bodies);
-            report.residual = system.largest_residual(&self.targets).max(passed);
+            report.residual = system.largest_residual(&self.targets);
+            report.beyond = contacts.largest_violation(bodies);
             report.grab_error = largest_grab_error(grabs, bodies);
             // A grab that makes no progress is out of reach: from then on the joints take precedence.
             if following_grabs && report.passes % STALL_PASSES == 0 {
@@ -124,8 +124,9 @@ impl TreeSolve {
                     && report.passes < MAX_GRAB_PASSES;
                 before = report.grab_error;
             }
-            let worst = report.residual.max(if following_grabs { report.grab_error } else { 0.0 });
-            if report.residual <= CLOSED && (!following_grabs || report.grab_error <= POSITION_TOLERANCE)
+            let open_now = report.residual.max(report.beyond);
+            let worst = open_now.max(if following_grabs { report.grab_error } else { 0.0 });
+            if open_now <= CLOSED && (!following_grabs || report.grab_error <= POSITION_TOLERANCE)
                 || free_passes == MAX_FREE_PASSES
             {
                 return report;
