@@ -140,30 +140,37 @@ pub struct Span {
 pub fn span(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> Result<Span, usize> {
     let (first, last) = (time(0), time(count - 1));
     let length = last - first;
-    let t = if repeat && length > 0.0 {
-        first + (t - first) - length * ((t - first + AT_KEY_S) / length).floor()
-    } else {
-        t
-    };
-    if t + AT_KEY_S < first {
+    let t = if repeat && length > 0.0 { first + (t - first) - length * ((t - first) / length).floor() } else { t };
+    if t < first {
         return Err(0);
     }
     let (mut low, mut high) = (0, count);
     while low < high {
         let middle = (low + high) / 2;
-        if time(middle) <= t + AT_KEY_S {
+        if time(middle) <= t {
             low = middle + 1;
         } else {
             high = middle;
         }
     }
-    if low == count { Err(count - 1) } else { Ok(Span { key: low - 1, since: (t - time(low - 1)).max(0.0) }) }
+    if low == count { Err(count - 1) } else { Ok(Span { key: low - 1, since: t - time(low - 1) }) }
+}
+
+/// The same, where a time just before a key counts as the key: for what jumps there, and must have jumped at the end of a step.
+///
+/// # Errors
+/// As [`span`].
+pub fn span_from_key(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> Result<Span, usize> {
+    match span(count, &time, repeat, t + AT_KEY_S)? {
+        Span { key, since } if since <= 2.0 * AT_KEY_S => Ok(Span { key, since: 0.0 }),
+        _ => span(count, time, repeat, t),
+    }
 }
 
 /// Time of the first of such keys after `t`, s; infinite where there is none.
 pub fn next_key(count: usize, time: impl Fn(usize) -> f64, repeat: bool, t: f64) -> f64 {
     let length = if repeat { time(count - 1) - time(0) } else { 0.0 };
-    match span(count, &time, repeat, t) {
+    match span_from_key(count, &time, repeat, t) {
         Ok(Span { key, since }) => t - since + time(key + 1) - time(key),
         Err(_) if t + AT_KEY_S < time(0) => time(0),
         Err(_) if length > 0.0 => t + length,
@@ -222,7 +229,11 @@ fn between(keys: &[(f64, f64)], interpolation: Interpolation, repeat: bool, t: f
     if keys.is_empty() {
         return Jet3::default();
     }
-    let Span { key, since } = match span(keys.len(), |i| keys[i].0, repeat, t) {
+    let found = match interpolation {
+        Interpolation::Linear => span_from_key(keys.len(), |i| keys[i].0, repeat, t),
+        _ => span(keys.len(), |i| keys[i].0, repeat, t),
+    };
+    let Span { key, since } = match found {
         Ok(span) => span,
         Err(key) => return still(keys[key].1),
     };

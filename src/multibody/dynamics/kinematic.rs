@@ -21,7 +21,7 @@
 //! span from the ω and ω̇ of its key. Velocities and accelerations have no jumps.
 
 use soffio_geometry::bodies::RigidBody;
-use soffio_math::function::{Span, easing, knot, neighbours, next_key, quintic, span};
+use soffio_math::function::{Span, easing, knot, neighbours, next_key, quintic, span, span_from_key};
 use soffio_math::spatial::{Vec6, vec6};
 use soffio_math::{DQuat, DVec3, Pose, rotation, rotation_vector, sincos};
 use soffio_math::{Interpolation, Jet3};
@@ -85,7 +85,12 @@ impl KeyframeMotion {
         if self.keys.is_empty() {
             return at_rest(Pose::IDENTITY);
         }
-        let found = match span(self.keys.len(), |i| self.keys[i].0, self.repeat, t) {
+        let time = |i: usize| self.keys[i].0;
+        let found = match self.interpolation {
+            Interpolation::Linear => span_from_key(self.keys.len(), time, self.repeat, t),
+            _ => span(self.keys.len(), time, self.repeat, t),
+        };
+        let found = match found {
             Ok(found) => found,
             Err(key) => return at_rest(self.keys[key].1),
         };

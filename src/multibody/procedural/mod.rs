@@ -259,7 +259,9 @@ impl Procedural {
         }
         if last.residual > POSITION_TOLERANCE {
             self.restore_start(step);
-            last = self.retry(step, &[], last, |_| true);
+            step.system.evaluate(step.bodies);
+            let start = SolveReport { residual: step.system.largest_residual(&self.tree.targets), ..last };
+            last = self.retry(step, &[], start, |report| report.residual < start.residual.max(POSITION_TOLERANCE));
             last.grab_error = relaxation::largest_grab_error(grabs, step.bodies);
         }
         last
