@@ -164,11 +164,11 @@ pub struct Breath {
     pub threshold: f64,
     /// Breaths of the last recordings of the venue that the detector heard, and how many there were; 0: not measured. `soffio breath fit`
     /// says both, and the staff page shows them.
-    pub heard: u32,
+    pub detected: u32,
     /// Number of those breaths.
-    pub heard_of: u32,
+    pub detected_of: u32,
     /// Median distance of those breaths, cm.
-    pub heard_at_cm: f64,
+    pub detected_at_cm: f64,
     /// Distance of the lips before the sculpture, m.
     pub distance_m: f64,
     /// Diameter of the blowing lips, m.
@@ -183,9 +183,9 @@ impl Default for Breath {
             gain: settings.breath_gain,
             sensitivity_db: settings.sensitivity_db,
             threshold: settings.threshold,
-            heard: 0,
-            heard_of: 0,
-            heard_at_cm: 0.0,
+            detected: 0,
+            detected_of: 0,
+            detected_at_cm: 0.0,
             distance_m: settings.distance,
             lip_diameter_m: settings.lip_diameter,
         }
@@ -492,9 +492,9 @@ pub const LIMITS: &[Limit] = &[
     Limit { key: "breath.gain", low: 0.1, high: 10.0, unit: "1" },
     Limit { key: "breath.sensitivity_db", low: -40.0, high: 40.0, unit: "dB" },
     Limit { key: "breath.threshold", low: -3.0, high: 4.0, unit: "1" },
-    Limit { key: "breath.heard", low: 0.0, high: 1e4, unit: "1" },
-    Limit { key: "breath.heard_of", low: 0.0, high: 1e4, unit: "1" },
-    Limit { key: "breath.heard_at_cm", low: 0.0, high: 200.0, unit: "cm" },
+    Limit { key: "breath.detected", low: 0.0, high: 1e4, unit: "1" },
+    Limit { key: "breath.detected_of", low: 0.0, high: 1e4, unit: "1" },
+    Limit { key: "breath.detected_at_cm", low: 0.0, high: 200.0, unit: "cm" },
     Limit { key: "breath.distance_m", low: 0.1, high: 2.0, unit: "m" },
     Limit { key: "breath.lip_diameter_m", low: 0.003, high: 0.03, unit: "m" },
     Limit { key: "audio.microphone_channel", low: 0.0, high: 64.0, unit: "1" },

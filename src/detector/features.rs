@@ -105,14 +105,14 @@ pub struct Features {
 /// What a detector learns of a room over minutes: how far its own sounds and draughts usually rise over the noise floor. No sound can be
 /// restored from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Room {
+pub struct AmbientSpread {
     /// Of the bands.
     pub bands: Spreads<BANDS>,
     /// Of the incoherent power of two capsules in the wide bands.
     pub incoherent: Spreads<WIDE>,
 }
 
-impl Room {
+impl AmbientSpread {
     /// How much farther than steady noise the gustiest band below 219 Hz rises, dB: a breath must rise so much more to be as unusual.
     /// Draughts and doors cost that.
     pub fn gusts_db(&self) -> f64 {
@@ -213,14 +213,14 @@ impl Features {
     }
 
     /// What is learnt of the room.
-    pub fn room(&self) -> Room {
-        Room { bands: self.floor.spreads(), incoherent: self.incoherent_floor.spreads() }
+    pub fn ambient_spread(&self) -> AmbientSpread {
+        AmbientSpread { bands: self.floor.spreads(), incoherent: self.incoherent_floor.spreads() }
     }
 
     /// Begins with what an earlier run has learnt of the room.
-    pub fn recall(&mut self, room: &Room) {
-        self.floor.recall(&room.bands);
-        self.incoherent_floor.recall(&room.incoherent);
+    pub fn recall(&mut self, ambient_spread: &AmbientSpread) {
+        self.floor.recall(&ambient_spread.bands);
+        self.incoherent_floor.recall(&ambient_spread.incoherent);
     }
 
     /// Takes the last frame as the noise floor.

@@ -50,7 +50,7 @@ use agc_detector::AgcDetector;
 use bands::{BANDS, RUMBLE, blend, power_to_db};
 use decision::Decision;
 pub use decision::Rules;
-pub use features::Room;
+pub use features::AmbientSpread;
 use frontend::{Frame, Frontend, SILENCE_DBFS};
 use model::{Model, Output};
 use soffio_math::{db_to_amplitude, exp};
@@ -205,13 +205,13 @@ impl BlowDetector {
     }
 
     /// What has been learnt of the room.
-    pub fn room(&self) -> Room {
-        self.frontend.features.room()
+    pub fn ambient_spread(&self) -> AmbientSpread {
+        self.frontend.features.ambient_spread()
     }
 
     /// Begins with what an earlier run has learnt of the room. Call it before the first sample.
-    pub fn recall(&mut self, room: &Room) {
-        self.frontend.features.recall(room);
+    pub fn recall(&mut self, ambient_spread: &AmbientSpread) {
+        self.frontend.features.recall(ambient_spread);
     }
 
     /// The current estimate.

@@ -8,7 +8,7 @@
 use super::input::{Microphone, StepInput};
 use super::onset_compensation::OnsetCompensation;
 use super::rate::DT;
-use soffio_detector::{BlowDetector, BlowEstimate, BlowSettings, Room};
+use soffio_detector::{AmbientSpread, BlowDetector, BlowEstimate, BlowSettings};
 use soffio_math::exp;
 
 /// Source speed of a held key or touch, m/s: a normal breath, 42 L/min through lips of 10 mm.
@@ -75,7 +75,7 @@ pub struct BreathSource {
     settings: BlowSettings,
     detector: Option<RunningDetector>,
     /// What the last detector knew of the room, for the next one; `None` before there was one.
-    room: Option<Room>,
+    ambient_spread: Option<AmbientSpread>,
     /// Speed of the hold, m/s.
     hold_speed: f64,
     /// Length of the present hold, s.
@@ -92,19 +92,19 @@ impl BreathSource {
         Self { settings, ..Self::default() }
     }
 
-    /// What is known of the room: of the running detector, else of the last one.
-    pub fn room(&self) -> Option<Room> {
-        self.detector.as_ref().map(|running| running.detector.room()).or(self.room)
+    /// Ambient spread of the running detector, else of the last one.
+    pub fn ambient_spread(&self) -> Option<AmbientSpread> {
+        self.detector.as_ref().map(|running| running.detector.ambient_spread()).or(self.ambient_spread)
     }
 
     /// Sets what an earlier run knew of the room, for the next detector.
-    pub fn recall(&mut self, room: Room) {
-        self.room = Some(room);
+    pub fn recall(&mut self, ambient_spread: AmbientSpread) {
+        self.ambient_spread = Some(ambient_spread);
     }
 
     /// Takes over the detector of another source, which has adapted to the noise floor and to the kiosk's own sound.
     pub fn adopt_detector(&mut self, before: &mut Self) {
-        (self.detector, self.room) = (before.detector.take(), before.room);
+        (self.detector, self.ambient_spread) = (before.detector.take(), before.ambient_spread);
         if let Some(running) = &mut self.detector {
             running.detector.set(self.settings.sensitivity_db, self.settings.threshold);
         }
@@ -138,15 +138,15 @@ impl BreathSource {
     /// adapts later.
     fn detect(&mut self, microphone: Option<Microphone>) -> BlowEstimate {
         let Some(microphone) = microphone else {
-            self.room = self.room();
+            self.ambient_spread = self.ambient_spread();
             self.detector = None;
             return BlowEstimate::default();
         };
         let sample_rate = microphone.sample_rate;
         if self.detector.as_ref().is_none_or(|running| running.sample_rate != sample_rate) {
             let mut detector = BlowDetector::with_settings(sample_rate, self.settings.clone());
-            self.room = self.room();
-            self.room.iter().for_each(|room| detector.recall(room));
+            self.ambient_spread = self.ambient_spread();
+            self.ambient_spread.iter().for_each(|ambient_spread| detector.recall(ambient_spread));
             self.detector = Some(RunningDetector { sample_rate, detector });
         }
         self.detector.as_mut().map_or_else(BlowEstimate::default, |running| {
@@ -184,14 +184,14 @@ impl BreathState {
         self.source.adopt_detector(&mut before.source);
     }
 
-    /// What is known of the room; `None` where there was no microphone yet.
-    pub fn room(&self) -> Option<Room> {
-        self.source.room()
+    /// Ambient spread; `None` where there was no microphone yet.
+    pub fn ambient_spread(&self) -> Option<AmbientSpread> {
+        self.source.ambient_spread()
     }
 
     /// Sets what an earlier run knew of the room.
-    pub fn recall(&mut self, room: Room) {
-        self.source.recall(room);
+    pub fn recall(&mut self, ambient_spread: AmbientSpread) {
+        self.source.recall(ambient_spread);
     }
 
     /// Sets or releases the commanded speed, m/s.
@@ -240,14 +240,14 @@ mod tests {
         let samples = vec![0.01; 200];
         let microphone = Microphone { samples: &samples, second: None, reference: &[], sample_rate: 48_000 };
         let listens = StepInput { microphone: Some(microphone), ..StepInput::default() };
-        assert_eq!(source.room(), None);
+        assert_eq!(source.ambient_spread(), None);
         blow(&mut source, &listens, 20.0);
-        let known = source.room().expect("a room");
+        let known = source.ambient_spread().expect("a room");
         assert!(known.bands.seconds > 19.0, "{known:?}");
         blow(&mut source, &StepInput::default(), 1.0);
-        assert_eq!(source.room(), Some(known), "without a microphone");
+        assert_eq!(source.ambient_spread(), Some(known), "without a microphone");
         blow(&mut source, &listens, 5.0);
-        let again = source.room().expect("a room");
+        let again = source.ambient_spread().expect("a room");
         assert!(again.bands.seconds > known.bands.seconds + 4.0, "learning goes on: {again:?}");
     }
 

@@ -14,7 +14,7 @@ use super::pointer_grabs::PickScene;
 use super::rate::{DT, SAMPLES_PER_STEP};
 use super::source::BreathState;
 use super::start::start_dynamics;
-use soffio_detector::Room;
+use soffio_detector::AmbientSpread;
 use soffio_exhibit::{Exhibit, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::StateHash;
@@ -78,13 +78,13 @@ impl Simulation {
     }
 
     /// What the breath detector knows of the room; `None` where there was no microphone yet.
-    pub fn room(&self) -> Option<Room> {
-        self.breath.room()
+    pub fn ambient_spread(&self) -> Option<AmbientSpread> {
+        self.breath.ambient_spread()
     }
 
     /// Lets the breath detector begin with what an earlier run knew of the room.
-    pub fn recall(&mut self, room: Room) {
-        self.breath.recall(room);
+    pub fn recall(&mut self, ambient_spread: AmbientSpread) {
+        self.breath.recall(ambient_spread);
     }
 
     /// Removes the dust particles where no picture is drawn. They change neither motion nor sound.

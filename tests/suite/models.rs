@@ -235,7 +235,7 @@ fn a_required_unsupported_extension_is_refused_with_the_remedy() {
         ("KHR_draco_mesh_compression", "gltf-transform"),
         ("EXT_meshopt_compression", "gltf-transform"),
         ("KHR_texture_basisu", "gltf-transform png"),
-        ("VENDOR_unheard_of", "export the model again without it"),
+        ("VENDOR_undetected_of", "export the model again without it"),
     ];
     for (extension, remedy) in expected {
         let (mut json, bin) = triangle();

@@ -86,8 +86,8 @@ pub(super) fn run(args: &Args) -> Outcome {
     println!("before (breath.threshold = {}): {}", fit.before.threshold, sentence(&fit.before, fit.distance_cm));
     println!("after:  {}", sentence(&fit.after, fit.distance_cm));
     println!("\n[breath]\nthreshold = {:.1}\nsensitivity_db = {:.1}", fit.after.threshold, fit.sensitivity_db);
-    println!("heard = {}\nheard_of = {}", fit.after.detected, fit.after.breaths);
-    println!("heard_at_cm = {:.0}", fit.distance_cm.unwrap_or_default());
+    println!("detected = {}\ndetected_of = {}", fit.after.detected, fit.after.breaths);
+    println!("detected_at_cm = {:.0}", fit.distance_cm.unwrap_or_default());
     println!(
         "\nThreshold and sensitivity were chosen from these recordings. Record ten more breaths to see how they do on others."
     );

@@ -15,7 +15,7 @@ use super::setup;
 use soffio_config::{Config, FILE, LoadedConfig};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::fleet::Fleet;
-use soffio_kiosk::fleet::kept_room::KeptRoom;
+use soffio_kiosk::fleet::persisted_spread::PersistedSpread;
 use soffio_kiosk::live::{Options, Report};
 use soffio_kiosk::staff::log::Log;
 use soffio_kiosk::venue::catalog::{self, ExhibitSource};
@@ -117,7 +117,7 @@ pub fn run(args: Args) -> Outcome {
         exhibit: exhibit.clone(),
         site,
         closed: false,
-        room: begun.persisted.room.as_ref().and_then(KeptRoom::room),
+        ambient_spread: begun.persisted.ambient_spread.as_ref().and_then(PersistedSpread::ambient_spread),
         recording: recording.as_ref().map(WavFeed::from),
         steps: args.duration.map(|seconds| (seconds * STEPS_PER_SECOND as f64).round() as u64),
         trace: args.trace,

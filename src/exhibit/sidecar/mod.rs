@@ -141,9 +141,9 @@ pub enum MovedBy {
     Auto,
     /// Always constrained dynamics.
     Dynamics,
-    /// Positions first, joint by joint: the classical procedural motion. Not for gears, nor for what breaks.
+    /// Positions first, joint by joint: the classical procedural motion. Not for gears and breakable constraints.
     Procedural,
-    /// Positions first, all joints at once. Not for gears, nor for what breaks.
+    /// Positions first, all joints at once. Not for gears and breakable constraints.
     PositionBased,
 }
 

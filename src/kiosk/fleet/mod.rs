@@ -2,10 +2,10 @@
 //!
 //! It observes from the window's side and changes nothing that a visitor sees. Commands of a broker are handed to the window.
 
-pub mod kept_room;
 pub mod metrics;
 pub(crate) mod mqtt;
 pub mod persisted;
+pub mod persisted_spread;
 pub mod visits;
 #[cfg(target_os = "linux")]
 pub(crate) mod watchdog;
@@ -15,10 +15,10 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::fleet::kept_room::KeptRoom;
 use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
 use crate::fleet::mqtt::{Mqtt, Order};
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
+use crate::fleet::persisted_spread::PersistedSpread;
 use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter, VisitorSigns};
 use crate::live::LiveState;
 use crate::venue::loudness::VolumeRequests;
@@ -33,7 +33,7 @@ use soffio_exhibit::{Exhibit, SIDECAR};
 const SELF_TEST_WAITS_MIN: u16 = 60;
 /// Time between two copies of what the detector knows of the room: it changes over minutes, and an empty night must not fill a log of
 /// writes.
-const ROOM_EVERY: Duration = Duration::from_secs(600);
+const SPREAD_EVERY: Duration = Duration::from_secs(600);
 
 /// Message about safe mode for staff.
 pub const SAFE_MODE: &str = "safe mode: the kiosk crashed three times within a minute of its start, so it shows one built-in \
@@ -88,7 +88,7 @@ pub struct Fleet {
     /// The day of the last self-test.
     tested_on: Option<Day>,
     /// When the room was copied last.
-    room_at: Instant,
+    spread_at: Instant,
     /// The exhibit on show, and a hash of its sidecar.
     content: Option<(Arc<Exhibit>, String)>,
 }
@@ -105,7 +105,7 @@ impl Fleet {
             metrics: Metrics::start(site.staff.metrics.clone()),
             mqtt: Mqtt::start(&site.mqtt),
             began: Instant::now(),
-            room_at: Instant::now(),
+            spread_at: Instant::now(),
             safe,
             reloads: true,
             self_tests: 0,
@@ -188,8 +188,9 @@ impl Fleet {
         if frame.current.step > 0 {
             (self.persisted.muted, self.persisted.night_by) = (load.loudness.muted, load.loudness.by);
         }
-        if let Some(room) = load.room.filter(|_| now.duration_since(self.room_at) >= ROOM_EVERY) {
-            (self.persisted.room, self.room_at) = (Some(KeptRoom::from(room)), now);
+        if let Some(ambient_spread) = load.ambient_spread.filter(|_| now.duration_since(self.spread_at) >= SPREAD_EVERY)
+        {
+            (self.persisted.ambient_spread, self.spread_at) = (Some(PersistedSpread::from(ambient_spread)), now);
         }
         self.persisted.blank = seen.venue.is_blank();
         self.persisted.wrong_pins = seen.wrong_pins;

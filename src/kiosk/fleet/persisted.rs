@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use crate::fleet::kept_room::KeptRoom;
+use crate::fleet::persisted_spread::PersistedSpread;
 use crate::fleet::visits::Histogram;
 use crate::fleet::writer::{Writer, write};
 use crate::step::breaths::BreathSource;
@@ -71,7 +71,7 @@ pub struct PersistedState {
     #[serde(alias = "care")]
     pub self_test: SelfTestHistory,
     /// What the breath detector knows of the room.
-    pub room: Option<KeptRoom>,
+    pub ambient_spread: Option<PersistedSpread>,
     /// Counters over all runs since the file was deleted.
     #[serde(alias = "tally")]
     pub counters: Counters,

@@ -9,7 +9,7 @@ use crate::step::frame_interpolation::{DELAY_STEPS, SnapshotHistory};
 use crate::step::stage::Stage;
 use crate::venue::loudness::LoudnessStatus;
 use crate::venue::self_test_run::SelfTestOutcome;
-use soffio_detector::Room;
+use soffio_detector::AmbientSpread;
 use soffio_devices::audio::{AudioStatus, DeviceState};
 use soffio_devices::controllers::State;
 use soffio_exhibit::Exhibit;
@@ -75,7 +75,7 @@ pub struct RunStatus {
     /// Health of the microphone.
     pub microphone: MicrophoneHealth,
     /// What the breath detector knows of the room; `None` where there was no microphone yet.
-    pub room: Option<Room>,
+    pub ambient_spread: Option<AmbientSpread>,
     /// Status of the audio devices.
     pub audio: AudioStatus,
     /// Frames that the loudspeaker has played; `None` where there is none.

@@ -45,7 +45,7 @@ impl Live {
         let site = &options.site;
         let settings = Settings { clock: local_time(), ..site.settings };
         let mut stage = Stage::new(options.exhibit.clone(), settings, options.recording.clone(), site.idle_s);
-        options.room.into_iter().for_each(|room| stage.recall(room));
+        options.ambient_spread.into_iter().for_each(|ambient_spread| stage.recall(ambient_spread));
         let trace = match &options.trace {
             Some(path) => Some(TraceWriter::create(path, &options.exhibit, DEFAULT_FPS).map_err(trace_error)?),
             None => None,

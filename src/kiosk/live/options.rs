@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::venue::site::Site;
-use soffio_detector::Room;
+use soffio_detector::AmbientSpread;
 use soffio_exhibit::Exhibit;
 use soffio_offline::feed::WavFeed;
 use soffio_simulation::MotionMode;
@@ -18,7 +18,7 @@ pub struct Options {
     /// Is the venue closed when the run begins?
     pub closed: bool,
     /// What an earlier run knew of the room.
-    pub room: Option<Room>,
+    pub ambient_spread: Option<AmbientSpread>,
     /// Recording that replaces the microphone.
     pub recording: Option<WavFeed>,
     /// End after so many steps.

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use soffio_detector::Room;
+use soffio_detector::AmbientSpread;
 use soffio_exhibit::{Exhibit, OrbitLimits, View};
 use soffio_geometry::bodies::RigidBody;
 use soffio_offline::feed::WavFeed;
@@ -90,13 +90,13 @@ impl Stage {
     }
 
     /// What the breath detector knows of the room; `None` where there was no microphone yet.
-    pub fn room(&self) -> Option<Room> {
-        self.simulation.room()
+    pub fn ambient_spread(&self) -> Option<AmbientSpread> {
+        self.simulation.ambient_spread()
     }
 
     /// Lets the breath detector begin with what an earlier run knew of the room.
-    pub fn recall(&mut self, room: Room) {
-        self.simulation.recall(room);
+    pub fn recall(&mut self, ambient_spread: AmbientSpread) {
+        self.simulation.recall(ambient_spread);
     }
 
     /// Adds a press that has come up, for the next step.

@@ -179,7 +179,7 @@ impl Equations {
         drivers.chain(self.jumping.iter().map(|function| function.next_jump(t))).fold(f64::INFINITY, f64::min)
     }
 
-    /// Gives what hangs on a driver whose velocity jumps at the time `t` its new velocity: the impulse of least kinetic energy.
+    /// Gives the bodies on a driver whose velocity jumps at the time `t` their new velocity: the impulse of least kinetic energy.
     pub fn jump(&mut self, bodies: &mut [RigidBody], t: f64) {
         self.place_kinematic_bodies(bodies, t);
         self.system.evaluate_without_trains(bodies);

@@ -8,8 +8,8 @@
 //! ```
 //!
 //! with s(t) as in [`soffio_math::Function`], where a step is a smooth way within the last [`STEP_S`] before its key. Where the velocity
-//! jumps, at the keys of a straight way, substeps end ([`KeyframeMotion::next_jump`]) and the joints' projection gives what hangs on the
-//! body its new velocity: an impulse. A *spline* is the quintic of that module in p and in the rotation vector
+//! jumps, at the keys of a straight way, substeps end ([`KeyframeMotion::next_jump`]) and the joints' projection gives the bodies
+//! that hang on it their new velocity: an impulse. A *spline* is the quintic of that module in p and in the rotation vector
 //! φ(t) from R₀, R(t) = `exp([φ]×)` R₀. With θ = |φ|, a = (1 − cos θ)/θ² and b = (θ − sin θ)/θ³
 //!
 //! ```text

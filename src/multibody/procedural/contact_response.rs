@@ -17,8 +17,8 @@
 //! Resting contacts follow `resting_friction.rs` where their surfaces have rolling resistance, or for balls with
 //! Relaxation.
 //!
-//! A contact rests if it approaches no faster than the step's forces accelerate in a step or two: a shorter bounce than a step cannot be
-//! told from rest. It does not bounce. Nor is it reported, if it, or one on the same side of the same two bodies, existed in the previous
+//! A contact rests if it approaches no faster than the step's forces accelerate in a step or two: a shorter bounce than a step is like
+//! rest. It does not bounce. Nor is it reported, if it, or one on the same side of the same two bodies, existed in the previous
 //! step. A ball in a hollow rests on one slope after the other.
 
 use super::resting_friction::{ContactImpulse, ContactMobility, ContactVelocity, resting_impulse};

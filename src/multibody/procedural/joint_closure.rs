@@ -121,13 +121,14 @@ impl Configuration<'_> {
 
     /// Moves the point `at` of a body (m) by s with the rule, as the head of its group; it does not rotate about `fixed_axes`.
     pub fn pull(&mut self, body: usize, (at, s): (DVec3, DVec3), group: &Group, fixed_axes: &[DVec3]) {
-        let held = |v: DVec3| fixed_axes.iter().fold(v, |v, axis| v - v.dot(*axis) * *axis);
-        // A body that turns about one axis alone turns by what lies across that axis.
+        let without_fixed = |v: DVec3| fixed_axes.iter().fold(v, |v, axis| v - v.dot(*axis) * *axis);
+        // A body that rotates about one axis alone takes the components across that axis.
         let free_axis = if let [e, f] = *fixed_axes { Some(e.cross(f)) } else { None };
         let across = |v: DVec3| free_axis.map_or(v, |axis| v - v.dot(axis) * axis);
         let r = at - group.center;
-        let turn = two_body_rule::compulsive_rotation(across(r), across(s), self.control, &group.inertia, group.mass);
-        let rotation_vector = held(turn);
+        let rotation_vector =
+            two_body_rule::compulsive_rotation(across(r), across(s), self.control, &group.inertia, group.mass);
+        let rotation_vector = without_fixed(rotation_vector);
         let rotation = matrix(soffio_math::rotation(rotation_vector));
         let arm = at - self.bodies[body].position;
         self.displace(body, two_body_rule::compulsive_translation(arm, s, &rotation), rotation_vector);

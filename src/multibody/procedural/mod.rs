@@ -10,13 +10,13 @@
 //!
 //! and rotates it likewise; kinematic bodies follow their motion. P projects velocities on the joints with least kinetic energy. The
 //! source has no P: its bodies are free, and the adjustment also has to give them what gravity and momentum pass through the joints. Joint by
-//! joint it cannot, and such a figure gains energy or never swings. With P nothing gains energy, whatever Δt.
+//! joint it cannot, and such an articulation gains energy or never swings. With P nothing gains energy, whatever Δt.
 //!
 //! The **adjustment** closes what the bodies' way, which is bent, has opened, and follows the hands, by one of two solvers:
 //!
-//! * [`PositionSolver::Relaxation`], the source's "compulsive motion": joint by joint outwards from what holds a piece, with a rule for two
+//! * [`PositionSolver::Relaxation`], the source's "compulsive motion": joint by joint outwards from a piece's anchor, with a rule for two
 //!   bodies (`two_body_rule.rs`), one joint (`joint_closure.rs`), and groups along the mechanism (`walk.rs`, `relaxation.rs`). One
-//!   traversal closes a piece that is held in one place. What is held in several, or goes beyond a limit, is left to the other solver.
+//!   traversal closes a piece that one anchor holds. A piece of several anchors, or beyond a limit, is left to the other solver.
 //! * [`PositionSolver::TreeSolve`]: Newton's method on all joints at once, of least kinetic energy (`tree_solve.rs`). Where it does not
 //!   converge, relaxation by sweeps from every anchor in turn closes a tree from anywhere.
 //!
@@ -210,7 +210,7 @@ impl Procedural {
         }
     }
 
-    /// Closes the joints after the update: by the rule what is held in one place, by Newton's method what is held in several.
+    /// Closes the joints after the update: by the rule those of pieces that one anchor holds, by Newton's method those of the others.
     fn adjust_by_rule(&mut self, step: &mut PositionStep, grabs: &[GrabTarget]) -> SolveReport {
         let report = self.relaxation.adjust_by_rule(step, grabs, &self.tree.targets, self.settings.control);
         if report.converged() && report.beyond <= POSITION_TOLERANCE {

@@ -75,8 +75,8 @@ impl Relaxation {
         }
     }
 
-    /// Closes by the rule, with the control c, the joints of each piece that is held in one place: one traversal. What is held in several
-    /// places, or would go beyond a limit, is left as it is.
+    /// Closes by the rule, with the control c, the joints of each piece that is held in one place: one traversal. A piece
+    /// that is held in several places, or would go beyond a limit, is left as it is.
     pub fn adjust_by_rule(
         &mut self,
         step: &mut PositionStep,
@@ -306,8 +306,8 @@ fn keep_momentum(configuration: &mut Configuration, visits: &[Visit], update: &[
     };
     let mut points = visits.iter().map(point);
     let Some((mass, center)) = points.next() else { return };
-    let still = Group { mass, center, inertia: DMat3::ZERO };
-    let whole = points.fold(still, |group, (mass, point)| group.with_load(mass, point));
+    let first = Group { mass, center, inertia: DMat3::ZERO };
+    let whole = points.fold(first, |group, (mass, point)| group.with_load(mass, point));
     let (mut inertia, mut momentum, mut angular_momentum) = (whole.inertia, DVec3::ZERO, DVec3::ZERO);
     for visit in visits {
         let (before, after) = (&update[visit.body], &configuration.bodies[visit.body]);
@@ -317,14 +317,14 @@ fn keep_momentum(configuration: &mut Configuration, visits: &[Visit], update: &[
         angular_momentum += after.properties.mass * (after.position - whole.center).cross(displacement)
             + own * rotation_between(before, after);
     }
-    let (shift, turn) = (-momentum / whole.mass, -(inertia.inverse() * angular_momentum));
-    if !turn.is_finite() {
+    let (shift, rotation_vector) = (-momentum / whole.mass, -(inertia.inverse() * angular_momentum));
+    if !rotation_vector.is_finite() {
         return;
     }
-    let rotation = matrix(soffio_math::rotation(turn));
+    let rotation = matrix(soffio_math::rotation(rotation_vector));
     for visit in visits {
         let arm = configuration.bodies[visit.body].position - whole.center;
-        configuration.displace(visit.body, shift + rotation * arm - arm, turn);
+        configuration.displace(visit.body, shift + rotation * arm - arm, rotation_vector);
     }
 }
 

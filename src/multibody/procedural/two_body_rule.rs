@@ -33,7 +33,7 @@ use soffio_math::{DMat3, DVec3, atan2};
 /// Largest rotation of a body in one sweep, rad.
 pub const MAX_ROTATION: f64 = 0.5;
 
-/// A body with what hangs on it: a rigid body of the same shape, with each load as a point mass at its joint. So a beam with two loads
+/// A body with its loads: a rigid body of the same shape, with each load as a point mass at its joint. So a beam with two loads
 /// balances where they do, and a load may swing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {

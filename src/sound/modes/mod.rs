@@ -97,8 +97,8 @@ fn mesh_partials(matter: &Matter, modal: &Modal, shared: &mut Shared) -> Result<
     }
 }
 
-/// Partials of a body of another size: of bodies of one form and material, all frequencies go with 1/size (elasticity has no length of
-/// its own), and so do decays, as each loses the same share of its energy a period. The support takes its part besides.
+/// Partials of a body of another size. Elasticity has no length of its own, so of bodies of one form and material all frequencies go
+/// with 1/size. So do decays, as each loses the same share of its energy a period. The support takes its part besides.
 fn sized(mut modes: Vec<Mode>, radius: Option<f64>, modal: &Modal, spec: &InstrumentSpec) -> Vec<Mode> {
     let [long, wide] = spec.body.half_extents;
     let size = (long * wide).sqrt();

@@ -143,10 +143,10 @@ fn a_dropped_ball_strikes_as_often_as_it_bounces() {
             assert!((f64::from(strike.speed) / bounce - 1.0).abs() < SPEED, "{speeds:?} for {bounces:?} m/s");
         }
         // Nothing of what the ball gave is lost.
-        let heard_of = |event: &&Event| {
+        let detected_of = |event: &&Event| {
             matches!(event.kind, EventKind::Impact) || (event.kind == EventKind::Rest && event.speed > 4e-3)
         };
-        let given: f64 = heard.events.iter().filter(heard_of).map(|event| event.impulse * event.impulse).sum();
+        let given: f64 = heard.events.iter().filter(detected_of).map(|event| event.impulse * event.impulse).sum();
         assert!((heard.energy(instrument) / given - 1.0).abs() < ENERGY, "{} of {given}", heard.energy(instrument));
         // The merged one stands where its window ends, and is stronger than the strongest of its hits.
         let (tail, strongest) = (strikes[bounces.len()], 0.1 * bounces[bounces.len() - 1] * e * (1.0 + e));

@@ -1,7 +1,7 @@
 //! Breaths make wind, at once and as long as they last; other sounds make none.
 
 use super::estimates;
-use soffio_detector::{BlowDetector, Room};
+use soffio_detector::{AmbientSpread, BlowDetector};
 use soffio_math::noise::Random;
 use soffio_soundscape::RATE;
 use soffio_soundscape::breath::Breath;
@@ -116,11 +116,11 @@ fn gain_control_is_named_after_one_breath_and_hardly_changes_its_strength() {
 #[test]
 fn what_is_learnt_of_a_draughty_room_outlasts_a_restart() {
     const LEARNING_S: f64 = 150.0;
-    let listen = |samples: &[f32], known: Option<&Room>| {
+    let listen = |samples: &[f32], known: Option<&AmbientSpread>| {
         let mut detector = BlowDetector::new(RATE);
-        known.into_iter().for_each(|room| detector.recall(room));
+        known.into_iter().for_each(|ambient_spread| detector.recall(ambient_spread));
         detector.push(samples, &[]);
-        detector.room()
+        detector.ambient_spread()
     };
     let steady = listen(&sounds::white_noise(RATE, 1, LEARNING_S, -50.0), None);
     assert!(steady.gusts_db() < 0.3, "steady noise has no gusts: {steady:?}");
@@ -134,8 +134,14 @@ fn what_is_learnt_of_a_draughty_room_outlasts_a_restart() {
     assert!((1.5..6.0).contains(&learnt.gusts_db()), "{} dB: {learnt:?}", learnt.gusts_db());
     // Five seconds after a restart.
     let soon = &take.left[..5 * RATE as usize];
-    let off = |room: &Room| {
-        room.bands.db.iter().zip(&learnt.bands.db).map(|(a, b)| (a - b).abs()).fold(0.0_f64, |most, db| most.max(db))
+    let off = |ambient_spread: &AmbientSpread| {
+        ambient_spread
+            .bands
+            .db
+            .iter()
+            .zip(&learnt.bands.db)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0_f64, |most, db| most.max(db))
     };
     let (known, unknown) = (off(&listen(soon, Some(&learnt))), off(&listen(soon, None)));
     assert!(known < 0.7 && unknown > 2.0, "off by {known} dB with and {unknown} dB without what was kept");

@@ -190,7 +190,7 @@ impl Thread {
         load.audio = audio.status();
         load.played = audio.played();
         load.loudness = self.playback.loudness.status();
-        load.room = self.stage.room();
+        load.ambient_spread = self.stage.ambient_spread();
         load.mode = self.stage.snapshot().diagnostics.mode;
         load.controllers.clear();
         load.controllers.extend(self.controllers.states().map(|(kind, state)| (kind.name(), state)));

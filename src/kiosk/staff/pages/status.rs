@@ -17,7 +17,7 @@ use soffio_simulation::MotionMode;
 
 /// Block that the panel proposes where the device offers it, ms: half of the default, and still longer than a step.
 const SHORT_BLOCK_MS: f64 = 5.0;
-/// Time after which the room is known well enough to be told of, s.
+/// Time after which the ambient spread is shown, s.
 const KNOWN_S: f64 = 60.0;
 
 /// The buttons of every day, then all numbers.
@@ -69,12 +69,12 @@ fn buttons(ui: &mut Ui, input: &PanelInput, may: bool, actions: &mut Vec<StaffAc
 }
 
 /// How sure the detector is here, by the recordings of the venue: a sentence.
-fn heard(texts: &UiStrings, breath: &Breath) -> Arc<str> {
-    match breath.heard_of {
+fn detected(texts: &UiStrings, breath: &Breath) -> Arc<str> {
+    match breath.detected_of {
         0 => texts.get(TextId::StaffHeardUnknown).into(),
         of => {
-            let distance = format!("{:.0}", breath.heard_at_cm).into();
-            let variables = [("heard", breath.heard.into()), ("of", of.into()), ("distance", distance)];
+            let distance = format!("{:.0}", breath.detected_at_cm).into();
+            let variables = [("detected", breath.detected.into()), ("of", of.into()), ("distance", distance)];
             texts.format(TextId::StaffHeardOf, &variables)
         }
     }
@@ -139,9 +139,11 @@ fn microphone(ui: &mut Ui, input: &PanelInput) {
         }
         None => row(ui, texts.get(TextId::StaffSelfTest), texts.get(TextId::StaffSelfTestNone), false),
     }
-    row(ui, texts.get(TextId::StaffHeard), heard(texts, &input.site.breath), false);
-    if let Some(room) = frame.load.room.filter(|room| room.bands.seconds >= KNOWN_S) {
-        let gusts = texts.format(TextId::StaffGustsCost, &[("db", format!("{:.0}", room.gusts_db()).into())]);
+    row(ui, texts.get(TextId::StaffHeard), detected(texts, &input.site.breath), false);
+    if let Some(ambient_spread) =
+        frame.load.ambient_spread.filter(|ambient_spread| ambient_spread.bands.seconds >= KNOWN_S)
+    {
+        let gusts = texts.format(TextId::StaffGustsCost, &[("db", format!("{:.0}", ambient_spread.gusts_db()).into())]);
         row(ui, texts.get(TextId::StaffGusts), gusts, false);
     }
     row(ui, texts.get(TextId::StaffGainControl), gain_control(texts, estimate), estimate.gain_control);

@@ -44,7 +44,7 @@ fn joints_hold_through_every_jump_of_a_driver() {
     }
 }
 
-/// A block welded to a driver takes its new speed at once, by the impulse m Δv; what hangs by a hinge keeps its angular momentum about it.
+/// A block welded to a driver takes its new speed at once, by the impulse m Δv; a rod on a hinge keeps its angular momentum about it.
 #[test]
 fn a_jump_is_an_impulse_through_the_joint() {
     /// Rounding of an integration over a step, relative.

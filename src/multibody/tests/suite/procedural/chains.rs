@@ -37,11 +37,11 @@ fn by_the_sources_rule_a_chain_under_more_control_turns_less() {
         }
         (rotation.sqrt(), behind)
     };
-    let (free, held) = (turned(1.0), turned(30.0));
+    let (weak, strong) = (turned(1.0), turned(30.0));
     println!(
         "c = 1: links turned by {} rad rms, end {} m behind; c = 30: {} rad, {} m",
-        free.0, free.1, held.0, held.1
+        weak.0, weak.1, strong.0, strong.1
     );
-    assert!(free.0 > 0.05, "{} rad: the hand turns the links", free.0);
-    assert!(held.0 < 0.8 * free.0, "{} and {} rad", held.0, free.0);
+    assert!(weak.0 > 0.05, "{} rad: the hand turns the links", weak.0);
+    assert!(strong.0 < 0.8 * weak.0, "{} and {} rad", strong.0, weak.0);
 }

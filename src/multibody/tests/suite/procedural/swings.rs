@@ -17,9 +17,9 @@ const GRAVITY: f64 = 9.81;
 fn swing(method: PositionSolver, rate: f64, seconds: f64) -> Vec<f64> {
     let mut world = chain(&[0.2], LENGTH, true);
     world.gravity = DVec3::NEG_Y * GRAVITY;
-    let turn = soffio_math::rotation(DVec3::Z * START);
-    world.bodies[0].position = turn * world.bodies[0].position;
-    world.bodies[0].rotation = turn * world.bodies[0].rotation;
+    let rotation = soffio_math::rotation(DVec3::Z * START);
+    world.bodies[0].position = rotation * world.bodies[0].position;
+    world.bodies[0].rotation = rotation * world.bodies[0].rotation;
     let mut hand = Hand::new(&world, method);
     (0..(seconds * rate) as usize)
         .map(|_| {
@@ -67,9 +67,9 @@ fn a_chain_that_falls_gains_no_energy() {
         for rate in RATES {
             let mut world: World = chain(&[0.1; 6], 0.1, true);
             world.gravity = DVec3::NEG_Y * GRAVITY;
-            let turn = soffio_math::rotation(DVec3::Z * (0.5 * PI));
+            let rotation = soffio_math::rotation(DVec3::Z * (0.5 * PI));
             for body in &mut world.bodies {
-                (body.position, body.rotation) = (turn * body.position, turn * body.rotation);
+                (body.position, body.rotation) = (rotation * body.position, rotation * body.rotation);
             }
             let mut hand = Hand::new(&world, method);
             let start = hand.dynamics.energy();

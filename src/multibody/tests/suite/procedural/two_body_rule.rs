@@ -52,9 +52,10 @@ fn more_inertia_turns_less_and_a_heavier_load_more() {
 fn the_turn_does_not_depend_on_the_step() {
     /// Difference of arc and chord over a way of a hundredth of the arm.
     const BENT: f64 = 1e-4;
-    let (r, way) = (DVec3::X * 0.3, DVec3::Y * 3e-3);
+    let (r, displacement) = (DVec3::X * 0.3, DVec3::Y * 3e-3);
     let turned = |steps: u32| {
-        let of = |_| compulsive_rotation(r, way / f64::from(steps), 1.0, &(DMat3::IDENTITY * 0.05), 2.0).length();
+        let of =
+            |_| compulsive_rotation(r, displacement / f64::from(steps), 1.0, &(DMat3::IDENTITY * 0.05), 2.0).length();
         (0..steps).map(of).sum::<f64>()
     };
     let one = turned(1);
