@@ -14,7 +14,7 @@ fn joints_hold_through_every_jump_of_a_driver() {
         {
             // A hand that goes to and fro and turns, with keys between the steps, and three rods that hang from it.
             let place = |k: u32| {
-                let side = if k % 2 == 0 { 0.2 } else { -0.1 };
+                let side = if k.is_multiple_of(2) { 0.2 } else { -0.1 };
                 Pose {
                     position: DVec3::new(side, 0.05 * f64::from(k % 3), 0.0),
                     rotation: rotation(DVec3::Z * (2.0 * side)),
