@@ -103,7 +103,7 @@ impl<const N: usize> Floor<N> {
         Spreads { db: std::array::from_fn(|b| self.spread(b)), seconds: (self.recalled_s + self.seconds).min(SPREAD_S) }
     }
 
-    /// Begins with the spreads of an earlier run; the level is learnt anew. Spreads that are no spreads change nothing.
+    /// Begins with the spreads of an earlier run; the level is learnt anew. Numbers that no room gives change nothing: below 0 or above R.
     pub fn recall(&mut self, spreads: &Spreads<N>) {
         if spreads.seconds >= 0.0 && spreads.db.iter().all(|db| (0.0..=MOST_SPREAD_DB).contains(db)) {
             self.spread = spreads.db.map(|db| db * db);

@@ -41,8 +41,8 @@ const SAME_SIDE: f64 = 0.9;
 const LOCKED: f64 = 1e-9;
 /// Share of the friction limit below which a contact sticks; the rest is rounding.
 const STICKING: f64 = 0.999;
-/// Penetration that is tolerated, m or rad: a wavelength of light.
-const PENETRATION_TOLERANCE: f64 = 5e-7;
+/// Penetration that is tolerated, m or rad.
+const PENETRATION_TOLERANCE: f64 = 1e-9;
 
 /// Which pass of separation detects contacts or moves bodies apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,9 +4,10 @@
 //!
 //! 1. orientations: the least rotation that closes them;
 //! 2. the first point or plane: compulsive rotation, without the component about the axes e that the
-//!    orientations hold (w − Σ (w·ê) ê), and compulsive translation; for a plane s = −C N;
+//!    orientations hold (w − Σ (w·ê) ê), and compulsive translation; for a plane s = −C N. Where one axis alone is free, arm and
+//!    displacement across it count;
 //! 3. all rows together, and the pair's violated limits (method 3.5: an angle beyond its limit is put back to it):
-//!    Newton steps on the body's six coordinates, of least kinetic energy,
+//!    Newton steps on the body's six coordinates, of least kinetic energy, with M of the body's group,
 //!
 //! ```text
 //! K = J M⁻¹ Jᵀ        δ = −M⁻¹ Jᵀ K⁻¹ C

@@ -304,10 +304,9 @@ fn keep_momentum(configuration: &mut Configuration, visits: &[Visit], update: &[
         let body = &configuration.bodies[visit.body];
         (body.properties.mass, body.position)
     };
-    let mut points = visits.iter().map(point);
-    let Some((mass, center)) = points.next() else { return };
+    let (mass, center) = point(&visits[0]);
     let first = Group { mass, center, inertia: DMat3::ZERO };
-    let whole = points.fold(first, |group, (mass, point)| group.with_load(mass, point));
+    let whole = visits[1..].iter().map(point).fold(first, |group, (mass, point)| group.with_load(mass, point));
     let (mut inertia, mut momentum, mut angular_momentum) = (whole.inertia, DVec3::ZERO, DVec3::ZERO);
     for visit in visits {
         let (before, after) = (&update[visit.body], &configuration.bodies[visit.body]);
@@ -318,9 +317,8 @@ fn keep_momentum(configuration: &mut Configuration, visits: &[Visit], update: &[
             + own * rotation_between(before, after);
     }
     let (shift, rotation_vector) = (-momentum / whole.mass, -(inertia.inverse() * angular_momentum));
-    if !rotation_vector.is_finite() {
-        return;
-    }
+    // Points on one line have no inertia about it, and cannot rotate there.
+    let rotation_vector = if rotation_vector.is_finite() { rotation_vector } else { DVec3::ZERO };
     let rotation = matrix(soffio_math::rotation(rotation_vector));
     for visit in visits {
         let arm = configuration.bodies[visit.body].position - whole.center;

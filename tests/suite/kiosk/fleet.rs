@@ -2,12 +2,15 @@
 
 use std::path::Path;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use soffio_config::Config;
+use soffio_detector::BlowDetector;
 use soffio_exhibit as exhibit;
 use soffio_kiosk::fleet::metrics::{ContentVersion, MetricsInput, text};
-use soffio_kiosk::fleet::persisted::PersistedState;
+use soffio_kiosk::fleet::persisted::{PersistedState, StateStore};
 use soffio_kiosk::fleet::visits::{DWELL_S, FRAME_S, Histogram};
+use soffio_kiosk::fleet::{Fleet, WindowStatus};
 use soffio_kiosk::live::{LiveState, RunStatus};
 use soffio_kiosk::staff::gate::{Gate, LONGEST_S};
 use soffio_kiosk::step::breaths::{BreathCounts, BreathEvent, BreathSource};
@@ -83,6 +86,29 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
             }
         }
     }
+}
+
+#[test]
+fn what_the_detector_knows_of_the_room_is_persisted_every_ten_minutes() {
+    let known = BlowDetector::new(48_000).ambient_spread();
+    let frame = frame(RunStatus { ambient_spread: Some(known), ..RunStatus::default() });
+    let mut fleet = Fleet::start(StateStore::default(), PersistedState::default(), false, &Config::default());
+    let began = Instant::now();
+    let mut after = |seconds| {
+        let seen = WindowStatus {
+            frame: &frame,
+            site: &Config::default(),
+            venue: &VenueState::default(),
+            breath_time: &PersistedState::default().breath_time,
+            language: "en",
+            activity: 0,
+            wrong_pins: 0,
+        };
+        fleet.update(began + Duration::from_secs(seconds), &seen);
+        fleet.persisted().ambient_spread.clone()
+    };
+    assert_eq!(after(590), None, "it changes over minutes");
+    assert_eq!(after(601).and_then(|persisted| persisted.ambient_spread()), Some(known));
 }
 
 #[test]
