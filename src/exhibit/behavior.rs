@@ -1,6 +1,6 @@
 //! How an exhibit moves, responds to breath and touch, and sounds.
 
-use soffio_math::DVec3;
+use soffio_math::{DVec3, Function};
 use soffio_multibody::articulation::{Constraint, ConstraintKind};
 use soffio_multibody::procedural::PositionSolver;
 use soffio_wind::breath::SpreadLaw;
@@ -86,12 +86,14 @@ pub struct SoundBinding {
     pub body: usize,
     /// The motion that triggers the sound.
     pub on: SoundTrigger,
+    /// Whether impacts ring it, whatever else plays it.
+    pub is_struck: bool,
     /// Index into [`Exhibit::instruments`](super::Exhibit::instruments).
     pub instrument: usize,
     /// Locates an impact on the body.
     pub frame: ImpactFrame,
-    /// Index of the wire that the wind plays, if the sound is a wire's: only wind across the wire sounds.
-    pub wire: Option<usize>,
+    /// What its timbre follows beside contacts.
+    pub follows: Follows,
     /// Key of the caption in the labels.
     pub caption: Option<String>,
 }
@@ -105,4 +107,37 @@ pub enum SoundTrigger {
     Slide,
     /// Wind at the body.
     Wind,
+    /// Motion of the body.
+    Motion,
+}
+
+/// What a timbre follows beside contacts.
+#[derive(Clone, Debug, Default)]
+pub struct Follows {
+    /// The air that it follows, if any.
+    pub air: Option<AirAt>,
+    /// Whether it follows the motion of its body.
+    pub motion: bool,
+    /// Whose force it follows.
+    pub force: Option<ForceOf>,
+    /// Its own number, which may change with time.
+    pub parameter: Function,
+}
+
+/// Where the air is that a sound follows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AirAt {
+    /// At these wind surfaces, by index.
+    Surfaces(Vec<usize>),
+    /// Across the wire of this index.
+    Wire(usize),
+}
+
+/// Whose force a sound follows, by index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceOf {
+    /// A constraint's joint.
+    Constraint(usize),
+    /// A spring.
+    Spring(usize),
 }

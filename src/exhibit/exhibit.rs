@@ -1,6 +1,7 @@
 //! The resolved exhibit: model and sidecar with every name turned into an index.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, TouchPermission};
 use super::bodies::{Body, Material, MaterialPair, Wire};
@@ -14,13 +15,13 @@ use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
 use soffio_multibody::collision::{Collider, ColliderPair, Exclusion};
 use soffio_multibody::dynamics::{Integrator, KinematicBody, RollingResistance, Solver, SurfacePair};
-use soffio_sound::InstrumentSpec;
+use soffio_sound::{InstrumentSpec, Preset};
 use soffio_wind::ambient::Wind;
 use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 ///
-/// It has 37 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
+/// It has 38 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
 /// has no state.
 #[derive(Clone, Debug)]
 pub struct Exhibit {
@@ -86,6 +87,8 @@ pub struct Exhibit {
     pub level_db: f64,
     /// Sounding bodies.
     pub instruments: Vec<InstrumentSpec>,
+    /// Timbres of the exhibit's own folder, in the order of their names.
+    pub own_timbres: Vec<Arc<Preset>>,
     /// Triggers of the sounds.
     pub sounds: Vec<SoundBinding>,
     /// Attract script.

@@ -39,6 +39,7 @@ pub mod fit;
 pub mod labels;
 pub mod materials;
 pub mod model;
+pub mod own_timbres;
 mod pairs;
 pub mod paths;
 mod presentation;
@@ -51,7 +52,10 @@ pub mod sidecar;
 mod source;
 pub mod view;
 
-pub use behavior::{BreathTuning, IdleDampingSpec, ImpactFrame, Motion, SoundBinding, SoundTrigger, TouchPermission};
+pub use behavior::{
+    AirAt, BreathTuning, Follows, ForceOf, IdleDampingSpec, ImpactFrame, Motion, SoundBinding, SoundTrigger,
+    TouchPermission,
+};
 pub use bodies::{Body, Material, MaterialPair, Wire};
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};

@@ -61,6 +61,12 @@ pub trait Quantity: Copy {
     fn si(self) -> f64;
 }
 
+impl Quantity for f64 {
+    fn si(self) -> f64 {
+        self
+    }
+}
+
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident, $kind:literal, [$(($unit:literal, $factor:expr)),+];)*) => {$(
         $(#[$doc])*

@@ -2,7 +2,7 @@
 
 use soffio_simulation::SAMPLE_RATE;
 use soffio_sound::timbre::Specimen;
-use soffio_sound::{Preset, Slide, SoundCommand, Strike, SurfaceLine, Synth, TimbreError, WindSound};
+use soffio_sound::{Preset, SoundCommand, SurfaceLine, Synth, TimbreError};
 
 /// Parameters of a test sound, in addition to those of the specimen.
 #[derive(Clone, Debug, Default)]
@@ -50,27 +50,16 @@ impl TestSound {
     }
 
     fn command(&self, preset: &Preset, s: &Specimen, synth: &Synth) -> SoundCommand {
-        let position = [s.at as f32, s.at_y as f32];
-        let (sample, instrument, pan, distance) = (0, 0, 0.0, 1.0);
-        if preset.slides() {
-            let (speed, force) = (s.slip as f32, s.force as f32);
-            return SoundCommand::Slide(Slide { sample, instrument, speed, force, position, pan, distance });
+        let mut command = s.command(preset, 0, 0);
+        match &mut command {
+            SoundCommand::Wind(wind) => wind.direction = self.direction as f32,
+            SoundCommand::Strike(strike) => {
+                let contact_time = synth.contact_time(0, s.hit_mass, s.speed).unwrap_or_default();
+                let of_peak = |force: f64| (2.0 * force * contact_time / std::f64::consts::PI) as f32;
+                strike.impulse = self.peak_force.map_or(strike.impulse, of_peak);
+            }
+            _ => {}
         }
-        if preset.continuous() {
-            let (speed, direction) = (s.wind as f32, self.direction as f32);
-            return SoundCommand::Wind(WindSound { sample, speed, gust: 0.0, direction, pan });
-        }
-        let contact_time = synth.contact_time(0, s.hit_mass, s.speed).unwrap_or_default();
-        let impulse = self.peak_force.map_or(s.impulse, |force| 2.0 * force * contact_time / std::f64::consts::PI);
-        SoundCommand::Strike(Strike {
-            sample,
-            instrument,
-            impulse: impulse as f32,
-            speed: s.speed as f32,
-            mass: s.hit_mass as f32,
-            position,
-            pan,
-            distance,
-        })
+        command
     }
 }

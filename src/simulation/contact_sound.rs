@@ -21,7 +21,7 @@
 
 use super::impact_merge::{ImpactPulse, MergeWindow};
 use super::sonify::{AudioListener, strike_position};
-use soffio_exhibit::{Exhibit, SoundTrigger};
+use soffio_exhibit::{Exhibit, SoundBinding, SoundTrigger};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::LimitKind;
@@ -248,7 +248,8 @@ impl ContactSound {
     /// All pairs apart.
     pub fn new(exhibit: &Exhibit) -> Self {
         let mut of_body = vec![Vec::new(); exhibit.bodies.len()];
-        for (i, sound) in exhibit.sounds.iter().enumerate().filter(|(_, sound)| sound.on != SoundTrigger::Wind) {
+        let touched = |sound: &SoundBinding| sound.is_struck || sound.on == SoundTrigger::Slide;
+        for (i, sound) in exhibit.sounds.iter().enumerate().filter(|(_, sound)| touched(sound)) {
             of_body[sound.body].push(i);
         }
         let meet = exhibit.collider_pairs().meet;
@@ -453,7 +454,7 @@ fn strike(
     for (body, local) in bodies.into_iter().zip(pulse.points) {
         let Some(body) = body else { continue };
         let place = scene.listener.locate(scene.bodies[body].pose().point(local));
-        for sound in of_body[body].iter().map(|&i| &scene.exhibit.sounds[i]).filter(|s| s.on == SoundTrigger::Impact) {
+        for sound in of_body[body].iter().map(|&i| &scene.exhibit.sounds[i]).filter(|s| s.is_struck) {
             out.push(SoundCommand::Strike(Strike {
                 sample: pulse.sample,
                 instrument: sound.instrument as u16,

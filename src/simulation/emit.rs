@@ -1,12 +1,13 @@
 //! Output of a step: events and sound commands.
 
 use super::air::{AimedBreath, Air};
+use super::air_sound::AirSounds;
 use super::contact_sound::{ContactSound, SoundScene};
 use super::event::{Event, EventKind, EventSource};
+use super::motion_sound::MotionSounds;
 use super::rate::{DT, SAMPLES_PER_STEP};
-use super::sonify::{self, AudioListener, WireSounds};
+use super::sonify::AudioListener;
 use soffio_exhibit::{Exhibit, View};
-use soffio_math::DVec3;
 use soffio_multibody::dynamics::{Dynamics, Impact};
 use soffio_sound::SoundCommand;
 
@@ -31,7 +32,8 @@ pub(crate) struct StepResult<'a> {
 #[derive(Clone)]
 pub(crate) struct Emitter {
     contact_sound: ContactSound,
-    wire_sounds: WireSounds,
+    air_sounds: AirSounds,
+    motion_sounds: MotionSounds,
     /// Events of the step.
     pub events: Vec<Event>,
     /// Sound commands of the step.
@@ -44,10 +46,11 @@ pub(crate) struct Emitter {
 
 impl Emitter {
     /// For an exhibit at its start.
-    pub fn new(exhibit: &Exhibit) -> Self {
+    pub fn new(exhibit: &Exhibit, air: &Air) -> Self {
         Self {
             contact_sound: ContactSound::new(exhibit),
-            wire_sounds: WireSounds::new(exhibit),
+            air_sounds: AirSounds::new(exhibit, air),
+            motion_sounds: MotionSounds::new(exhibit),
             events: Vec::with_capacity(LIST_CAPACITY),
             sounds: Vec::with_capacity(LIST_CAPACITY),
             impacts: 0,
@@ -64,6 +67,8 @@ impl Emitter {
     /// Ends all sounds from this sample on.
     pub fn silence(&mut self, sample: u64) {
         self.contact_sound.reset(sample, &mut self.sounds);
+        self.air_sounds.reset();
+        self.motion_sounds.reset();
         self.sounds.push(SoundCommand::Silence { sample });
     }
 
@@ -89,12 +94,8 @@ impl Emitter {
             self.faults += 1;
             insert(&mut self.events, Event::fault(start, body, bodies));
         }
-        // The sound is that of the wind on the sculpture: a gain of the force is its square root on the speed.
-        let target = breath.aim.target;
-        let jet = breath.jet(&air.jet_front);
-        let velocity = jet.map_or(DVec3::ZERO, |jet| jet.gain.sqrt() * air.wind.breath_velocity(&jet, target));
-        self.wire_sounds.update(sample, velocity, exhibit, bodies, &mut self.sounds);
-        self.sounds.push(sonify::wind(sample, velocity, air.report.gust, listener.locate(target).pan, &listener));
+        self.air_sounds.update(sample, air, &breath, bodies, &listener, &mut self.sounds);
+        self.motion_sounds.update(sample, exhibit, dynamics, &listener, &mut self.sounds);
     }
 
     /// Adds the events of constraints and springs that broke or were triggered in the step from `start` (s).

@@ -37,6 +37,7 @@
 mod aim;
 mod aim_assist;
 mod air;
+mod air_sound;
 mod assembly;
 mod camera;
 mod clock_setting;
@@ -49,6 +50,7 @@ mod impact_merge;
 mod input;
 mod inspect;
 mod motion;
+mod motion_sound;
 mod onset_compensation;
 mod pointer_grabs;
 mod rate;

@@ -57,13 +57,14 @@ impl Simulation {
     /// The exhibit at rest in its start pose.
     pub fn new(exhibit: Arc<Exhibit>, settings: Settings) -> Self {
         let camera = Camera::new(&exhibit);
+        let air = Air::new(&exhibit, settings.seed);
         Self {
             clock: StepClock::default(),
             breath: BreathState::new(settings.detector()),
             aim_assist: AimAssist::new(&exhibit, &mut start_dynamics(&exhibit, &settings)),
-            air: Air::new(&exhibit, settings.seed),
             motion: Motion::new(&exhibit, &settings),
-            emitter: Emitter::new(&exhibit),
+            emitter: Emitter::new(&exhibit, &air),
+            air,
             dust_particles: DustParticles::new(camera.view.target, settings.seed),
             camera,
             exhibit,

@@ -1,14 +1,14 @@
-//! Control signals of sustained voices: wind and sliding contacts, smoothed from their commands.
+//! Control signals of sustained voices: wind, sliding contacts and motion, smoothed from their commands.
 
 use super::graph::CONTROL_PERIOD;
 use super::timbre::{Inputs, Player};
-use super::{Slide, SoundCommand, WindExposure, WindSound};
+use super::{MotionSound, Slide, SoundCommand, WindSound};
 use soffio_math::{PI, exp};
 
 /// Time constant of the smoothed wind, s: several simulation steps, so that none is heard, and far below the time of a
 /// gust.
 const WIND_GLIDE: f64 = 0.05;
-/// Time constant of a smoothed slide, s: one simulation step.
+/// Time constant of a smoothed slide or motion, s: one simulation step.
 const SLIDE_GLIDE: f64 = 0.004;
 /// Force below which a fading slide ends, N: 100 dB below 1 N, inaudible.
 const LEAST_FORCE: f64 = 1e-5;
@@ -17,17 +17,14 @@ const LEAST_WIND: f64 = 1e-3;
 /// Least distance of a listener, m: bounds the gain 1/r to 20 dB above that at 1 m.
 pub(super) const MIN_DISTANCE: f32 = 0.1;
 
-/// Wind and slides of one exhibit.
+/// Wind, slides and motions of one exhibit.
 pub(super) struct SustainedControls {
-    /// One-pole coefficients of wind and slides per grid point.
+    /// One-pole coefficients of wind, and of slides and motion, per grid point.
     shares: [f64; 2],
-    wind: WindState,
-    /// Whether the air was still before the last grid point.
-    calm_before: bool,
-    /// One for each instrument.
+    /// One of each for each instrument.
+    winds: Vec<WindState>,
     slides: Vec<SlideState>,
-    /// Wind exposure of each instrument: target and present.
-    exposures: Vec<[f64; 2]>,
+    motions: Vec<MotionState>,
 }
 
 /// Control signals of one instrument.
@@ -44,14 +41,17 @@ pub(super) struct ControlValues {
     pub still: bool,
 }
 
-/// Commanded and smoothed wind.
-#[derive(Default)]
+/// Commanded and smoothed wind of one instrument.
+#[derive(Clone, Copy, Default)]
 struct WindState {
     target: WindSound,
     speed: f64,
     gust: f64,
     direction: f64,
     pan: f64,
+    distance: f64,
+    /// Was the air calm before the last grid point?
+    calm_before: bool,
 }
 
 /// Commanded and smoothed sliding contact of one instrument.
@@ -63,15 +63,25 @@ struct SlideState {
     position: [f64; 2],
 }
 
+/// Commanded and smoothed motion of one instrument's body.
+#[derive(Clone, Copy, Default)]
+struct MotionState {
+    /// `None` before the first command, and after all were silenced.
+    target: Option<MotionSound>,
+    /// Smoothed; `None` before the first grid point with a target.
+    now: Option<MotionSound>,
+    /// Was there no motion before the last grid point?
+    absent_before: bool,
+}
+
 impl SustainedControls {
-    /// Still air and no slides, for this number of instruments.
+    /// Still air, no slides and no motion, for this number of instruments.
     pub fn new(instruments: usize, sample_rate: f64) -> Self {
         Self {
             shares: [WIND_GLIDE, SLIDE_GLIDE].map(|glide| 1.0 - exp(-(CONTROL_PERIOD as f64) / (glide * sample_rate))),
-            wind: WindState::default(),
-            calm_before: true,
+            winds: vec![WindState { calm_before: true, ..WindState::default() }; instruments],
             slides: vec![SlideState::default(); instruments],
-            exposures: vec![[1.0; 2]; instruments],
+            motions: vec![MotionState { absent_before: true, ..MotionState::default() }; instruments],
         }
     }
 
@@ -82,13 +92,12 @@ impl SustainedControls {
                 let slider = self.slides.get_mut(usize::from(slide.instrument));
                 slider.map(|slider| slider.target = slide).is_some()
             }
-            SoundCommand::WindExposure(WindExposure { instrument, share, .. }) => {
-                let exposures = self.exposures.get_mut(usize::from(instrument));
-                exposures.map(|exposures| exposures[0] = f64::from(share).clamp(0.0, 1.0)).is_some()
-            }
             SoundCommand::Wind(wind) => {
-                self.wind.target = wind;
-                true
+                self.winds.get_mut(usize::from(wind.instrument)).map(|state| state.target = wind).is_some()
+            }
+            SoundCommand::Motion(motion) => {
+                let mover = self.motions.get_mut(usize::from(motion.instrument));
+                mover.map(|mover| mover.target = Some(motion)).is_some()
             }
             _ => true,
         }
@@ -96,61 +105,112 @@ impl SustainedControls {
 
     /// Sets all targets to 0.
     pub fn silence(&mut self) {
-        self.wind.target.speed = 0.0;
+        self.winds.iter_mut().for_each(|wind| wind.target.speed = 0.0);
         self.slides.iter_mut().for_each(|slider| slider.target.force = 0.0);
+        self.motions.iter_mut().for_each(|mover| mover.target = None);
     }
 
-    /// Advances the wind to the next grid point; slides advance in [`Self::values`].
+    /// Advances wind and motion to the next grid point; slides advance in [`Self::values`].
     pub fn glide(&mut self) {
-        let share = self.shares[0];
-        self.calm_before = self.wind.speed == 0.0;
-        self.exposures.iter_mut().for_each(|[target, now]| *now += (*target - *now) * share);
-        self.wind.glide(share);
+        let [wind, motion] = self.shares;
+        self.winds.iter_mut().for_each(|state| state.glide(wind));
+        self.motions.iter_mut().for_each(|state| state.glide(motion));
+    }
+
+    /// Adds the motion of an instrument's body to the inputs of a hit.
+    pub fn add_motion(&self, instrument: usize, inputs: &mut Inputs) {
+        if let Some(now) = self.motions[instrument].now {
+            (inputs.motion, inputs.distance) = (now.motion, f64::from(now.distance));
+        }
     }
 
     /// Control signals of an instrument with this player at this grid point. To be called once a grid point.
     pub fn values(&mut self, instrument: usize, player: Player) -> ControlValues {
-        let air = Inputs {
-            wind_speed: self.wind.speed,
-            wind_direction: self.wind.direction,
-            gust: self.wind.gust,
+        let (wind, mover) = (&self.winds[instrument], &self.motions[instrument]);
+        let mut air = Inputs {
+            wind_speed: wind.speed,
+            wind_direction: wind.direction,
+            gust: wind.gust,
+            distance: wind.distance,
             ..Inputs::default()
         };
-        if player == Player::Slide {
-            let slider = &mut self.slides[instrument];
-            let parted = slider.force == 0.0;
-            slider.glide(self.shares[1]);
-            let slide = slider.target;
-            return ControlValues {
-                inputs: Inputs {
-                    slip_speed: slider.speed,
-                    normal_force: slider.force,
-                    position: slider.position,
-                    ..air
-                },
-                pan: f64::from(slide.pan),
-                distance: slide.distance.max(MIN_DISTANCE),
-                still_before: parted,
-                still: slider.force == 0.0,
-            };
+        self.add_motion(instrument, &mut air);
+        match player {
+            Player::Slide => {
+                let slider = &mut self.slides[instrument];
+                let parted = slider.force == 0.0;
+                slider.glide(self.shares[1]);
+                let slide = slider.target;
+                ControlValues {
+                    inputs: Inputs {
+                        slip_speed: slider.speed,
+                        normal_force: slider.force,
+                        position: slider.position,
+                        ..air
+                    },
+                    pan: f64::from(slide.pan),
+                    distance: slide.distance.max(MIN_DISTANCE),
+                    still_before: parted,
+                    still: slider.force == 0.0,
+                }
+            }
+            Player::Motion => ControlValues {
+                inputs: air,
+                pan: mover.now.map_or(0.0, |now| f64::from(now.pan)),
+                distance: mover.now.map_or(1.0, |now| now.distance).max(MIN_DISTANCE),
+                still_before: mover.absent_before,
+                still: mover.now.is_none(),
+            },
+            Player::Wind | Player::Hit => ControlValues {
+                inputs: air,
+                pan: wind.pan,
+                distance: (wind.distance as f32).max(MIN_DISTANCE),
+                still_before: wind.calm_before,
+                still: wind.speed == 0.0,
+            },
         }
-        ControlValues {
-            inputs: Inputs { wind_speed: self.wind.speed * self.exposures[instrument][1], ..air },
-            pan: self.wind.pan,
-            distance: 1.0,
-            still_before: self.calm_before,
-            still: self.wind.speed == 0.0,
-        }
+    }
+}
+
+impl MotionState {
+    /// One step of a one-pole glide towards the commanded motion. The way is a count, which only follows.
+    fn glide(&mut self, share: f64) {
+        self.absent_before = self.now.is_none();
+        self.now = self.target.map(|target| {
+            let mut now = self.now.unwrap_or(target);
+            let share = share as f32;
+            let (m, t) = (&mut now.motion, &target.motion);
+            for (value, target) in [
+                (&mut m.speed, t.speed),
+                (&mut m.spin, t.spin),
+                (&mut m.joint_force, t.joint_force),
+                (&mut m.tension, t.tension),
+                (&mut m.way, t.way),
+                (&mut m.height, t.height),
+                (&mut m.parameter, t.parameter),
+                (&mut now.pan, target.pan),
+                (&mut now.distance, target.distance),
+            ] {
+                *value += (target - *value) * share;
+            }
+            now
+        });
     }
 }
 
 impl WindState {
     /// One step of a one-pole glide towards the commanded wind.
     fn glide(&mut self, share: f64) {
+        self.calm_before = self.speed == 0.0;
         let target = f64::from(self.target.speed).max(0.0);
+        if self.calm_before {
+            // New wind starts where it blows.
+            (self.pan, self.distance) = (f64::from(self.target.pan), f64::from(self.target.distance));
+        }
         self.speed += (target - self.speed) * share;
         self.gust += (f64::from(self.target.gust) - self.gust) * share;
         self.pan += (f64::from(self.target.pan) - self.pan) * share;
+        self.distance += (f64::from(self.target.distance) - self.distance) * share;
         if target > 0.0 {
             // The shorter way round; a fading wind keeps its direction.
             let turn = f64::from(self.target.direction) - self.direction;

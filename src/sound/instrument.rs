@@ -25,6 +25,8 @@ pub(super) struct Instrument {
     pub gain: f64,
     /// Most voices of impacts at once.
     pub max_voices: usize,
+    /// It has partials that only hits drive.
+    rings: bool,
     radiator: Radiator,
     modal: Option<Modal>,
 }
@@ -58,7 +60,7 @@ impl Instrument {
     /// # Errors
     /// There is no such preset, or it does not fit the body.
     pub fn compile(spec: &InstrumentSpec, shared: &mut Shared) -> Result<Self, TimbreError> {
-        Self::from_preset(&Preset::shipped(&spec.timbre)?, spec, shared)
+        Self::from_preset(&*spec.preset()?, spec, shared)
     }
 
     /// # Errors
@@ -70,6 +72,7 @@ impl Instrument {
             player: preset.player(),
             gain: spec.gain,
             max_voices: spec.max_voices.max(1),
+            rings: preset.rings(),
             radiator,
             modal: preset
                 .modal()
@@ -81,6 +84,11 @@ impl Instrument {
     /// Whether impacts play it.
     pub fn is_hit(&self) -> bool {
         self.player == Player::Hit
+    }
+
+    /// Whether anything of it sounds when the body is struck, whatever else plays it.
+    pub fn is_struck(&self) -> bool {
+        self.is_hit() || self.rings
     }
 
     /// Hertz contact time, s; 1 ms where nothing rings.
@@ -99,6 +107,7 @@ impl Instrument {
             contact_time: self.contact_time(mass, speed),
             rigid_pressure: if rigid_pressure.is_finite() { rigid_pressure } else { 0.0 },
             position: strike.position.map(|p| f64::from(p).clamp(-1.0, 1.0)),
+            distance: f64::from(strike.distance),
             ..Inputs::default()
         }
     }

@@ -13,7 +13,7 @@
 //! The crate reads no clock, device or file: timbres are compiled in, or parsed from a text of the caller. It plays no recorded
 //! samples; all sound is computed from modes, noise and excitation. The output never exceeds the limiter's ceiling.
 //!
-//! The main types are [`Synth`] (renders stereo frames), [`SoundCommand`] (strikes, slides, damping, wind), [`InstrumentSpec`]
+//! The main types are [`Synth`] (renders stereo frames), [`SoundCommand`] (strikes, slides, damping, wind, motion), [`InstrumentSpec`]
 //! (timbre, body and material), [`Preset`] (a timbre), and [`Reverb`] (reverberation).
 //!
 //! ```
@@ -23,7 +23,7 @@
 //! let area = 0.0113;
 //! let body = SoundBody { half_extents: [0.06; 2], thickness: 5e-4, area, mass: area * 5e-4 * 7850.0 };
 //! let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
-//! let spec = InstrumentSpec { timbre: "plate".into(), body, material, surface: None, gain: 1.0, max_voices: 8 };
+//! let spec = InstrumentSpec { timbre: "plate".into(), own: None, body, material, surface: None, gain: 1.0, max_voices: 8 };
 //! let mut synth = Synth::new(48_000, &[spec], 1).expect("a shipped timbre");
 //! let strike = Strike { sample: 0, instrument: 0, impulse: 1e-3, speed: 0.3, mass: 0.003, position: [0.8, 0.1], pan: 0.0, distance: 0.7 };
 //! synth.command(SoundCommand::Strike(strike));
@@ -36,6 +36,7 @@
 
 mod bounds;
 mod controls;
+mod ducking;
 mod excitation;
 mod graph;
 mod gusts;
@@ -56,6 +57,8 @@ pub mod timbre;
 mod true_peak;
 mod voice;
 mod volume;
+
+use std::sync::Arc;
 
 pub use gusts::multifractal;
 pub use instrument::partials;
@@ -78,10 +81,10 @@ pub enum SoundCommand {
     Damp(Damp),
     /// A contact slides over a body, or ends; the synth interpolates between commands.
     Slide(Slide),
-    /// The wind of one simulation step; the synth interpolates between commands.
+    /// The air at an instrument in one simulation step; the synth interpolates between commands.
     Wind(WindSound),
-    /// Share of the wind that excites an instrument from now on.
-    WindExposure(WindExposure),
+    /// The motion of an instrument's body in one simulation step; the synth interpolates between commands.
+    Motion(MotionSound),
     /// Fades out everything (change or reset of an exhibit).
     Silence {
         /// When.
@@ -97,7 +100,7 @@ impl SoundCommand {
             Self::Damp(touch) => touch.sample,
             Self::Slide(slide) => slide.sample,
             Self::Wind(wind) => wind.sample,
-            Self::WindExposure(exposure) => exposure.sample,
+            Self::Motion(motion) => motion.sample,
             Self::Silence { sample } => *sample,
         }
     }
@@ -109,7 +112,7 @@ impl SoundCommand {
             Self::Damp(touch) => touch.sample = time,
             Self::Slide(slide) => slide.sample = time,
             Self::Wind(wind) => wind.sample = time,
-            Self::WindExposure(exposure) => exposure.sample = time,
+            Self::Motion(motion) => motion.sample = time,
             Self::Silence { sample } => *sample = time,
         }
         self
@@ -169,12 +172,14 @@ pub struct Slide {
     pub distance: f32,
 }
 
-/// The wind at the sculpture as a sound command: the instruments that sound in wind follow it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// The air at an instrument that sounds in wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindSound {
     /// When.
     pub sample: u64,
-    /// Speed of the air at the sculpture, m/s, gusts included.
+    /// Index into the exhibit's instruments.
+    pub instrument: u16,
+    /// Speed of the air over the surfaces, m/s, gusts included.
     pub speed: f32,
     /// Relative gust, about ±1, from the turbulence that acts on the surfaces.
     pub gust: f32,
@@ -182,17 +187,49 @@ pub struct WindSound {
     pub direction: f32,
     /// −1 left … 1 right.
     pub pan: f32,
+    /// From the listener, m.
+    pub distance: f32,
 }
 
-/// Share of the wind at one instrument: a wire is excited by the flow across it.
+impl Default for WindSound {
+    /// Calm air, 1 m away.
+    fn default() -> Self {
+        Self { sample: 0, instrument: 0, speed: 0.0, gust: 0.0, direction: 0.0, pan: 0.0, distance: 1.0 }
+    }
+}
+
+/// The motion of an instrument's body, for timbres whose numbers follow it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WindExposure {
+pub struct MotionSound {
     /// When.
     pub sample: u64,
     /// Index into the exhibit's instruments.
     pub instrument: u16,
-    /// Share of the wind's speed: the sine of its angle with the wire; 1 at first.
-    pub share: f32,
+    /// What moves, and how.
+    pub motion: BodyMotion,
+    /// −1 left … 1 right.
+    pub pan: f32,
+    /// From the listener, m.
+    pub distance: f32,
+}
+
+/// What a timbre can follow of a body that moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyMotion {
+    /// Speed of its centre of mass, m/s.
+    pub speed: f32,
+    /// Its angular speed, rad/s.
+    pub spin: f32,
+    /// Force of the joint that the sound names, N.
+    pub joint_force: f32,
+    /// Pull of the spring or cord that the sound names, N.
+    pub tension: f32,
+    /// Way of the centre of mass since the start of the exhibit, m.
+    pub way: f32,
+    /// Height of the centre of mass above its start, m.
+    pub height: f32,
+    /// The sound's own `parameter`, in its own unit.
+    pub parameter: f32,
 }
 
 /// Material of a sounding body.
@@ -235,6 +272,8 @@ pub struct SurfaceLine {
 pub struct InstrumentSpec {
     /// Name of the timbre preset (`audio/timbres/<timbre>.toml`).
     pub timbre: String,
+    /// The preset itself where it is the exhibit's own; `None` for a shipped one.
+    pub own: Option<Arc<Preset>>,
     /// Its dimensions.
     pub body: SoundBody,
     /// Its material.
@@ -245,4 +284,22 @@ pub struct InstrumentSpec {
     pub gain: f64,
     /// Most simultaneous voices of impacts on this body; its modes have no bound.
     pub max_voices: usize,
+}
+
+impl InstrumentSpec {
+    /// Its timbre: the exhibit's own, or the shipped one of this name.
+    ///
+    /// # Errors
+    /// There is no shipped timbre of this name.
+    pub fn preset(&self) -> Result<Arc<Preset>, TimbreError> {
+        self.own.clone().map_or_else(|| Preset::shipped(&self.timbre).map(Arc::new), Ok)
+    }
+
+    /// Whether the timbre fits the body: it is compiled as the synth will.
+    ///
+    /// # Errors
+    /// What does not fit.
+    pub fn check(&self) -> Result<(), TimbreError> {
+        instrument::Instrument::compile(self, &mut shared::Shared::default()).map(drop)
+    }
 }

@@ -40,7 +40,8 @@ pub(super) struct SoundingBody {
     /// Its partials.
     pub bank: Bank,
     operators: Box<[OperatorState; MAX_NODES]>,
-    inputs: Inputs,
+    /// Values of the inputs that its numbers are bound to.
+    pub inputs: Inputs,
     /// The block that is playing, and the contribution of impacts to later blocks.
     look_ahead: Vec<f32>,
     /// End of the last sample of `look_ahead` that is not 0.

@@ -14,6 +14,7 @@
 use std::collections::VecDeque;
 
 use super::controls::{ControlValues, MIN_DISTANCE, SustainedControls};
+use super::ducking::Ducking;
 use super::graph::{AudioBlock, Bus, CONTROL_PERIOD};
 use super::instrument::Instrument;
 use super::master::Master;
@@ -21,9 +22,9 @@ use super::repetition::RepetitionAttenuation;
 use super::reverb::ReverbSpec;
 use super::shared::Shared;
 use super::sounding_body::{SoundingBody, SynthClock};
-use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
+use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
-use super::{Damp, InstrumentSpec, SoundCommand, Strike};
+use super::{BodyMotion, Damp, InstrumentSpec, SoundCommand, Strike};
 use soffio_math::noise::hash_words;
 use soffio_math::{PI, sincos};
 
@@ -52,7 +53,7 @@ pub struct Synth {
     voices: Vec<Voice>,
     /// Voices from this index on are free.
     used_voices: usize,
-    /// Sustained voices of wind and slides.
+    /// Sustained voices of wind, slides and motion.
     sustained: Vec<Voice>,
     controls: SustainedControls,
     /// In the order of their times.
@@ -60,6 +61,7 @@ pub struct Synth {
     blocks: Box<[AudioBlock; MAX_NODES]>,
     /// One for each instrument.
     repetitions: Vec<RepetitionAttenuation>,
+    ducking: Ducking,
     master: Master,
     dry: bool,
     position: u64,
@@ -153,6 +155,7 @@ impl Synth {
             sustained,
             commands: VecDeque::with_capacity(MAX_COMMANDS),
             blocks: Box::new([[0.0; CONTROL_PERIOD]; MAX_NODES]),
+            ducking: Ducking::new(sample_rate),
             master: Master::new(sample_rate),
             dry: false,
             position: 0,
@@ -177,7 +180,7 @@ impl Synth {
         if self.dry { 0 } else { self.master.latency() }
     }
 
-    /// Bypasses reverb, night mode and limiter, and turns repetition attenuation off. To be called before the first sample, because
+    /// Bypasses reverb, night mode and limiter, and turns repetition attenuation and ducking off. To be called before the first sample, because
     /// it changes the latency.
     pub fn set_dry(&mut self, dry: bool) {
         self.dry = dry;
@@ -288,7 +291,7 @@ impl Synth {
         match command {
             SoundCommand::Strike(strike) => self.strike(&strike),
             SoundCommand::Damp(damp) => self.damp(&damp),
-            SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::WindExposure(_) => {
+            SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::Motion(_) => {
                 if !self.controls.command(&command) {
                     self.faults += 1;
                 }
@@ -304,7 +307,7 @@ impl Synth {
 
     fn strike(&mut self, strike: &Strike) {
         let index = usize::from(strike.instrument);
-        let Some(instrument) = self.instruments.get(index).filter(|instrument| instrument.is_hit()) else {
+        let Some(instrument) = self.instruments.get(index).filter(|instrument| instrument.is_struck()) else {
             self.faults += 1;
             return;
         };
@@ -315,7 +318,8 @@ impl Synth {
             if self.dry { 1.0 } else { self.repetitions[index].strike_gain(f64::from(strike.impulse), time) };
         let gain = repetition_gain * instrument.gain as f32 / strike.distance.max(MIN_DISTANCE);
         let gains = [l * gain, r * gain];
-        let inputs = instrument.inputs(strike);
+        let mut inputs = instrument.inputs(strike);
+        self.controls.add_motion(index, &mut inputs);
         let clock = self.clock();
         if let Some(body) = self.body_index[index] {
             let since = (self.position % CONTROL_PERIOD as u64) as usize;
@@ -325,7 +329,7 @@ impl Synth {
                 return;
             }
         }
-        if !instrument.graph.has(Bus::Voice) {
+        if !instrument.is_hit() || !instrument.graph.has(Bus::Voice) {
             return;
         }
         let most = instrument.max_voices;
@@ -385,7 +389,9 @@ impl Synth {
     fn grid_point(&mut self) {
         let clock = self.clock();
         let SynthClock { time, sample_rate } = clock;
+        self.controls.glide();
         for body in &mut self.bodies {
+            self.controls.add_motion(body.instrument, &mut body.inputs);
             if !body.grid_point(&self.instruments[body.instrument], clock) {
                 self.faults += 1;
             }
@@ -397,9 +403,9 @@ impl Synth {
         for voice in self.voices[..self.used_voices].iter_mut().filter(|voice| voice.state != VoiceState::Free) {
             let graph = &self.instruments[voice.instrument].graph;
             voice.grid_point(graph);
+            self.controls.add_motion(voice.instrument, &mut voice.inputs);
             graph.control(Bus::Voice, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
-        self.controls.glide();
         for voice in &mut self.sustained {
             let instrument = &self.instruments[voice.instrument];
             let ControlValues { inputs, pan, distance, still_before, still } =
@@ -430,7 +436,7 @@ impl Synth {
             }
             voice.gains = gains;
             voice.inputs = inputs;
-            // Only wind and slides end a sustained voice.
+            // Only what plays a sustained voice ends it.
             voice.state = VoiceState::Sounding;
             instrument.graph.control(Bus::Voice, &mut voice.operators, &voice.inputs, time, sample_rate);
         }
@@ -451,9 +457,16 @@ impl Synth {
 
     fn mix(&mut self, left: &mut [f32], right: &mut [f32]) {
         let at = (self.position % CONTROL_PERIOD as u64) as usize;
+        let n = left.len();
+        let mut wind = [[0.0f32; CONTROL_PERIOD]; 2];
+        let [wind_left, wind_right] = wind.each_mut().map(|side| &mut side[..n]);
+        let mut blows = false;
         let voices = self.voices[..self.used_voices].iter_mut().chain(&mut self.sustained);
         for voice in voices.filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
+            let is_wind = instrument.player == Player::Wind && !self.dry;
+            blows |= is_wind;
+            let [left, right] = if is_wind { [&mut *wind_left, &mut *wind_right] } else { [&mut *left, &mut *right] };
             let body = self.body_index[voice.instrument].filter(|_| instrument.graph.drives());
             let force = body.map(|body| self.bodies[body].force(at));
             if !voice.mix(instrument, &mut self.blocks, left, right, force) {
@@ -462,6 +475,11 @@ impl Synth {
         }
         for body in self.bodies.iter_mut().filter(|body| body.sounds()) {
             body.mix(&self.instruments[body.instrument], &mut self.blocks, at, left, right);
+        }
+        if blows {
+            self.ducking.mix([wind_left, wind_right], [left, right]);
+        } else {
+            self.ducking.skip([left, right]);
         }
     }
 }
@@ -484,8 +502,11 @@ fn is_finite(command: &SoundCommand) -> bool {
         SoundCommand::Slide(s) => {
             [s.speed, s.force, s.position[0], s.position[1], s.pan, s.distance].iter().all(|v| v.is_finite())
         }
-        SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan].iter().all(|v| v.is_finite()),
-        SoundCommand::WindExposure(exposure) => exposure.share.is_finite(),
+        SoundCommand::Wind(w) => [w.speed, w.gust, w.direction, w.pan, w.distance].iter().all(|v| v.is_finite()),
+        SoundCommand::Motion(m) => {
+            let BodyMotion { speed, spin, joint_force, tension, way, height, parameter } = m.motion;
+            [speed, spin, joint_force, tension, way, height, parameter, m.pan, m.distance].iter().all(|v| v.is_finite())
+        }
         SoundCommand::Silence { .. } => true,
     }
 }

@@ -61,6 +61,8 @@ pub(super) struct PatchBlock {
     windward: Four,
     leeward: Four,
     across: Four,
+    /// Areas, m²; 0 in a lane without a patch.
+    area: Four,
 }
 
 impl PatchBlock {
@@ -78,6 +80,7 @@ impl PatchBlock {
             windward: four(&along),
             leeward: four(&|patch| if patch.kind == PatchKind::OneSided { 0.0 } else { along(patch) }),
             across: four(&|patch| pressure(patch) * coefficients.of(patch.kind).across),
+            area: four(&|patch| patch.area),
         }
     }
 
@@ -96,6 +99,15 @@ impl PatchBlock {
         let across = v - axis * along;
         let strength = along.simd_lt(0.0).select(lanes.get(&self.windward), lanes.get(&self.leeward));
         axis * (strength * along.abs() * along) + across * (lanes.get(&self.across) * across.dot(across).sqrt())
+    }
+
+    /// A |v|⁶ in the relative winds `v` (m/s), m² (m/s)⁶, and the same times the patches' points.
+    #[inline(always)]
+    pub fn noise<S: Simd>(&self, simd: S, v: V3<f64x4<S>>) -> (f64x4<S>, V3<f64x4<S>>) {
+        let lanes = All(simd);
+        let square = v.dot(v);
+        let power = lanes.get(&self.area) * square * square * square;
+        (power, self.point.get(lanes) * power)
     }
 
     /// Moments of forces at the patches about the frame's origin, N m.

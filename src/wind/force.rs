@@ -30,11 +30,12 @@
 //! gain           F_i ← G F_i                           after the bound
 //! ```
 
-use fearless_simd::{Level, Simd, dispatch};
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
+use super::air_noise::AirNoise;
 use super::ambient::{AmbientWind, Wind, WindOrigin};
 use super::breath::{Breath, JetPoint};
-use super::drag::{all, by_lane, lane, sum};
+use super::drag::{PatchBlock, all, by_lane, lane, sum};
 use super::jet_front::JetFront;
 use super::patch_air::{BreathAir, PatchAir, STILL_AIR};
 use super::patches::{Patch, PatchKind};
@@ -140,6 +141,8 @@ pub struct WindField {
     /// The breath's wrench on each body, without bound and gain.
     breath_wrenches: Vec<Vec6>,
     patch_air: PatchAir,
+    /// Of each surface in the last step.
+    noise: Vec<AirNoise>,
     /// SIMD instruction set.
     level: Level,
 }
@@ -158,6 +161,7 @@ impl WindField {
             seed,
             breath_wrenches: vec![[0.0; 6]; bodies],
             patch_air: PatchAir::with_capacity(most),
+            noise: vec![AirNoise::default(); surfaces.len()],
             surfaces,
             level: Level::new(),
         }
@@ -191,7 +195,9 @@ impl WindField {
         let mut report = WindReport::default();
         let mut load = BreathLoad::default();
         let mut patch_air = std::mem::take(&mut self.patch_air);
-        for surface in &self.surfaces {
+        let mut noise = std::mem::take(&mut self.noise);
+        noise.fill(AirNoise::default());
+        for (surface, noise) in self.surfaces.iter().zip(&mut noise) {
             let body = &bodies[surface.body];
             let at_rest = body.velocity == DVec3::ZERO && body.angular_velocity == DVec3::ZERO;
             if at_rest && still_air {
@@ -203,21 +209,21 @@ impl WindField {
             }
             let jet = jet.filter(|jet| patch_air.sample_breath(&posed, jet, &self.occluders));
             let air = (!still_air).then_some(&patch_air);
-            let wrenches = self.surface_wrenches(simd, &posed, air, jet, &mut load);
+            let wrenches = self.surface_wrenches(simd, &posed, air, jet, &mut load, noise);
             for k in 0..6 {
                 out[surface.body][k] += wrenches.ambient[k];
                 self.breath_wrenches[surface.body][k] += wrenches.breath[k];
             }
             report.force += linear(&wrenches.ambient);
         }
-        self.patch_air = patch_air;
+        (self.patch_air, self.noise) = (patch_air, noise);
         if let Some(jet) = jet {
             self.apply_breath(jet, &load, out, &mut report);
         }
         report
     }
 
-    /// Wrenches on one surface. `air`: sampled air at its patches, `None` in still air.
+    /// Wrenches on one surface, and its noise. `air`: sampled air at its patches, `None` in still air.
     #[inline(always)]
     fn surface_wrenches<S: Simd>(
         &self,
@@ -226,6 +232,7 @@ impl WindField {
         air: Option<&PatchAir>,
         jet: Option<&BreathJet>,
         load: &mut BreathLoad,
+        noise: &mut AirNoise,
     ) -> SurfaceWrenches {
         let PosedSurface { surface, body, to_world, to_body } = *posed;
         let center = body.properties.center;
@@ -236,6 +243,14 @@ impl WindField {
         let undirected_share = jet.filter(|_| solid).map_or(1.0, |jet| 1.0 / jet.gain.max(1.0).sqrt());
         let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
         let mut breath_sum = [0.0; 6];
+        let mut power = f64x4::splat(simd, 0.0);
+        let (mut loud_points, mut loud_flow) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
+        let mut add_noise = |block: &PatchBlock, wind| {
+            let (loud, point) = block.noise(simd, wind);
+            power += loud;
+            loud_points += point;
+            loud_flow += wind * loud;
+        };
         for (first, block) in (0..).step_by(WIDTH).zip(&surface.blocks) {
             let still = -block.velocities(simd, origin, spin);
             let ambient = match air {
@@ -245,17 +260,21 @@ impl WindField {
             let drag = block.drag(simd, ambient);
             force += drag;
             moment += block.moments(simd, drag);
-            let (Some(jet), Some(air)) = (jet, air) else { continue };
-            let breath = &air.breath[first..first + WIDTH];
-            if breath.iter().all(|air| air.source_speed == 0.0) {
+            let arrives = jet.zip(air).map(|(jet, air)| (jet, air, &air.breath[first..first + WIDTH]));
+            let arrives = arrives.filter(|(.., breath)| breath.iter().any(|air| air.source_speed != 0.0));
+            let Some((jet, air, breath)) = arrives else {
+                add_noise(block, ambient);
                 continue;
-            }
+            };
+            let arriving = by_lane(simd, |k| to_body * breath[k].velocity);
+            // A gain acts as √G times the breath's speed would.
+            add_noise(block, ambient + arriving * f64x4::splat(simd, jet.gain.sqrt()));
             let (mut wind, mut drag_before) = (ambient, drag);
             if undirected_share < 1.0 {
                 wind -= by_lane(simd, |k| (1.0 - undirected_share) * (to_body * air.undirected[first + k]));
                 drag_before = block.drag(simd, wind);
             }
-            let added = block.drag(simd, wind + by_lane(simd, |k| to_body * breath[k].velocity)) - drag_before;
+            let added = block.drag(simd, wind + arriving) - drag_before;
             for (k, air) in breath.iter().enumerate().filter(|(_, air)| air.source_speed > 0.0) {
                 let patch = &surface.patches[first + k];
                 let added = lane(&added, k);
@@ -268,6 +287,9 @@ impl WindField {
             }
         }
         let force = sum(&force);
+        noise.power = (power[0] + power[1]) + (power[2] + power[3]);
+        noise.moment = noise.power * (body.position - to_world * center) + to_world * sum(&loud_points);
+        noise.flow = to_world * sum(&loud_flow);
         SurfaceWrenches {
             ambient: vec6(to_world * force, to_world * (sum(&moment) - center.cross(force))),
             breath: vec6(to_world * linear(&breath_sum), to_world * angular(&breath_sum)),
@@ -288,6 +310,16 @@ impl WindField {
         report.bound = jet.gain * most;
         let ahead = jet.breath.mouth + GUST_DISTANCE * jet.breath.direction;
         report.gust = self.gust(&jet.breath, ahead).dot(jet.breath.direction);
+    }
+
+    /// How loud the air over each surface was in the last step, in the order of the surfaces.
+    pub fn noise(&self) -> &[AirNoise] {
+        &self.noise
+    }
+
+    /// Sum of the patches' areas of a surface, m².
+    pub fn area(&self, surface: usize) -> f64 {
+        self.surfaces[surface].patches.iter().map(|patch| patch.area).sum()
     }
 
     /// Sum of the undirected winds at a point (world, m), m/s.

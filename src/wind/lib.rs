@@ -15,6 +15,7 @@
 //! | [`Surface`], [`Shelter`] | surfaces that take wind forces, and meshes that shelter them |
 //! | [`patches`] | patches of a surface |
 //! | [`force`] | [`force::WindField`]: forces of all winds on bodies |
+//! | [`air_noise`] | how loud the air over a surface is |
 //!
 //! ```
 //! use soffio_math::DVec3;
@@ -34,6 +35,7 @@ use std::ops::RangeInclusive;
 
 use soffio_geometry::TriangleMesh;
 
+pub mod air_noise;
 pub mod ambient;
 pub mod breath;
 mod drag;

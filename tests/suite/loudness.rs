@@ -24,7 +24,7 @@ fn synth(frequency: f64, t60: f64, gain: f64) -> Synth {
     let preset = Preset::parse("one", &text).expect("a valid preset");
     let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
     let body = SoundBody { half_extents: [0.06; 2], thickness: 5e-4, area: 0.0113, mass: 0.044 };
-    let spec = InstrumentSpec { timbre: "one".into(), body, material, surface: None, gain, max_voices: 8 };
+    let spec = InstrumentSpec { timbre: "one".into(), own: None, body, material, surface: None, gain, max_voices: 8 };
     Synth::with_preset(RATE, &preset, &spec, 1).expect("compiles")
 }
 

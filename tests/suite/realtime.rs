@@ -13,6 +13,7 @@ fn synth(rate: u32) -> Synth {
     let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
     let spec = |timbre: &str| InstrumentSpec {
         timbre: timbre.into(),
+        own: None,
         body,
         material,
         surface: None,

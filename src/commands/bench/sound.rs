@@ -192,9 +192,17 @@ fn reverb_cost() -> f64 {
 }
 
 /// A breath that swells and fades, and something that is drawn to and fro over each surface.
-fn going_on(sample: u64, slides: std::ops::Range<usize>) -> impl Iterator<Item = SoundCommand> {
+fn going_on(
+    sample: u64,
+    airs: std::ops::Range<usize>,
+    slides: std::ops::Range<usize>,
+) -> impl Iterator<Item = SoundCommand> {
     let swell = move |seconds: f64| sin(2.0 * PI * sample as f64 / f64::from(SAMPLE_RATE) / seconds) as f32;
-    let wind = WindSound { sample, speed: 3.0 + 2.0 * swell(1.7), gust: 0.3 * swell(0.3), direction: 0.0, pan: 0.1 };
+    let (speed, gust) = (3.0 + 2.0 * swell(1.7), 0.3 * swell(0.3));
+    let wind = move |instrument: usize| {
+        let instrument = instrument as u16;
+        SoundCommand::Wind(WindSound { sample, instrument, speed, gust, pan: 0.1, ..WindSound::default() })
+    };
     let slide = move |instrument: usize| {
         SoundCommand::Slide(Slide {
             sample,
@@ -206,13 +214,14 @@ fn going_on(sample: u64, slides: std::ops::Range<usize>) -> impl Iterator<Item =
             distance: 1.0,
         })
     };
-    std::iter::once(SoundCommand::Wind(wind)).chain(slides.map(slide))
+    airs.map(wind).chain(slides.map(slide))
 }
 
 fn scene() -> Result<Scene, Failure> {
     let material = SoundMaterial { youngs_modulus: 1e10, poisson: 0.3, density: 600.0, loss_factor: 1e-2 };
     let body = SoundBody { half_extents: [0.1, 0.05], thickness: 0.01, area: 0.02, mass: 0.12 };
-    let spec = InstrumentSpec { timbre: "heavy".into(), body, material, surface: None, gain: 1.0, max_voices: 4 };
+    let spec =
+        InstrumentSpec { timbre: "heavy".into(), own: None, body, material, surface: None, gain: 1.0, max_voices: 4 };
     let mut presets = Vec::new();
     for (_, bodies, count, band) in SCENE {
         for _ in 0..bodies {
@@ -223,7 +232,8 @@ fn scene() -> Result<Scene, Failure> {
     for name in SCENE_AIR.iter().chain(&SCENE_SCRAPES) {
         presets.push(Preset::shipped(name).map_err(Failure::input)?);
     }
-    let slides = bodies + SCENE_AIR.len()..presets.len();
+    let airs = bodies..bodies + SCENE_AIR.len();
+    let slides = airs.end..presets.len();
     let instruments: Vec<_> = presets.iter().map(|preset| (preset, &spec)).collect();
     let mut best = Scene { bodies, partials: 0, core_percent: f64::INFINITY, worst_block_percent: 0.0 };
     let lasts = SCENE_BLOCK as f64 / f64::from(SAMPLE_RATE);
@@ -258,7 +268,7 @@ fn scene() -> Result<Scene, Failure> {
                     synth.command(strike(sample, (sample / every) as usize * 7 % bodies));
                 }
                 if sample % (u64::from(SAMPLE_RATE) / SCENE_UPDATES) == 0 {
-                    going_on(sample, slides.clone()).for_each(|command| synth.command(command));
+                    going_on(sample, airs.clone(), slides.clone()).for_each(|command| synth.command(command));
                 }
             }
             synth.render(&mut out);

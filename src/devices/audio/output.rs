@@ -312,12 +312,12 @@ impl OutputHandle {
     }
 }
 
-/// Of many late commands those that still matter: each strike, damp and silence, and the last wind and slide of each
+/// Of many late commands those that still matter: each strike, damp and silence, and the last wind, motion and slide of each
 /// instrument.
 fn last_words(commands: &[SoundCommand]) -> Vec<SoundCommand> {
     let goes_on = |command: &SoundCommand| match command {
-        SoundCommand::Wind(_) => Some((0, 0)),
-        SoundCommand::WindExposure(across) => Some((1, across.instrument)),
+        SoundCommand::Wind(wind) => Some((0, wind.instrument)),
+        SoundCommand::Motion(motion) => Some((1, motion.instrument)),
         SoundCommand::Slide(slide) => Some((2, slide.instrument)),
         SoundCommand::Strike(_) | SoundCommand::Damp(_) | SoundCommand::Silence { .. } => None,
     };
@@ -364,7 +364,15 @@ mod tests {
     fn plate() -> Synth {
         let material = SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 };
         let body = SoundBody { half_extents: [0.06; 2], thickness: 5e-4, area: 0.0113, mass: 0.044 };
-        let spec = InstrumentSpec { timbre: "plate".into(), body, material, surface: None, gain: 1.0, max_voices: 8 };
+        let spec = InstrumentSpec {
+            timbre: "plate".into(),
+            own: None,
+            body,
+            material,
+            surface: None,
+            gain: 1.0,
+            max_voices: 8,
+        };
         Synth::new(RATE, &[spec], 1).expect("a shipped timbre")
     }
 

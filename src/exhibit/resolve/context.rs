@@ -7,6 +7,7 @@ use super::super::bodies::Material;
 use super::super::diagnostic::Diagnostic;
 use super::super::exhibit::Origin;
 use super::super::model::Model;
+use super::super::own_timbres::OwnTimbres;
 use super::super::paths::SIDECAR;
 use super::super::sidecar::Sidecar;
 use super::super::source::SidecarText;
@@ -21,6 +22,8 @@ pub(super) struct Context<'a> {
     /// Nodes of each name, in the model's order.
     pub(super) named: BTreeMap<&'a str, Vec<usize>>,
     pub(super) folder: &'a Path,
+    /// Timbres of the exhibit's own folder.
+    pub(super) own_timbres: &'a OwnTimbres,
     pub(super) problems: Vec<Diagnostic>,
     pub(super) origins: Vec<Origin>,
     pub(super) materials: Vec<Material>,
@@ -39,7 +42,13 @@ pub(super) struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn new(source: &'a SidecarText, sidecar: &'a Sidecar, model: &'a Model, folder: &'a Path) -> Self {
+    pub(super) fn new(
+        source: &'a SidecarText,
+        sidecar: &'a Sidecar,
+        model: &'a Model,
+        folder: &'a Path,
+        own_timbres: &'a OwnTimbres,
+    ) -> Self {
         let mut named: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (index, node) in model.nodes.iter().enumerate() {
             named.entry(&node.name).or_default().push(index);
@@ -50,6 +59,7 @@ impl<'a> Context<'a> {
             model,
             named,
             folder,
+            own_timbres,
             problems: Vec::new(),
             origins: Vec::new(),
             materials: Vec::new(),

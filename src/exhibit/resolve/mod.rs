@@ -14,6 +14,7 @@ mod motion;
 mod nail_paths;
 mod nodes;
 mod picture;
+mod sounds;
 mod surfaces;
 mod texts;
 mod winds;
@@ -26,6 +27,7 @@ use super::bodies::Body;
 use super::diagnostic::{Diagnostic, Report, quoted};
 use super::exhibit::Exhibit;
 use super::model::{Imported, Model, import};
+use super::own_timbres::OwnTimbres;
 use super::paths::SIDECAR;
 use super::presentation::{Attract, Credit, Labels};
 use super::shape_tracks::shapes;
@@ -38,6 +40,7 @@ use soffio_math::DVec3;
 use soffio_multibody::articulation::Constraint;
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_multibody::procedural::PositionSolver;
+use sounds::Sounding;
 
 /// Most bytes of a sidecar.
 const MAX_SIDECAR_BYTES: u64 = 4 << 20;
@@ -68,11 +71,13 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
     let Imported { mut model, warnings } =
         import(&model_path).map_err(|report| alone(report.diagnostics.into_iter().map(placed).collect()))?;
     add_path_nodes(&mut model, &sidecar);
-    let mut context = Context::new(&source, &sidecar, &model, folder);
+    let own = OwnTimbres::read(folder);
+    let mut context = Context::new(&source, &sidecar, &model, folder, &own);
     context.problems.extend(warnings.into_iter().map(placed));
     context.problems.extend(source.old_names());
     let exhibit = context.resolve();
-    let report = alone(std::mem::take(&mut context.problems));
+    let mut report = alone(std::mem::take(&mut context.problems));
+    report.absorb(own.into_report());
     if report.has_errors() {
         return Err(report);
     }
@@ -132,6 +137,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         idle_damping: None,
         level_db: 0.0,
         instruments: Vec::new(),
+        own_timbres: Vec::new(),
         sounds: Vec::new(),
         attract: Attract::default(),
         labels: Labels::default(),
@@ -203,7 +209,15 @@ impl Context<'_> {
         let winds = self.winds();
         let breath = self.breath_tuning();
         let calm = self.calm();
-        let (instruments, sounds) = self.sounds(&bodies, &colliders, &wires);
+        let sounding = Sounding {
+            bodies: &bodies,
+            colliders: &colliders,
+            wires: &wires,
+            wind_surfaces: &wind_surfaces,
+            constraints: &constraints,
+            springs: &springs,
+        };
+        let (instruments, sounds) = self.sounds(&sounding);
         let (integrator, solver, stabilization_time) = self.solver();
         let touch = self.touch(&bodies);
         let clock = self.clock(&constraints);
@@ -242,6 +256,7 @@ impl Context<'_> {
             idle_damping: calm,
             level_db: self.sidecar.scene.level.0,
             instruments,
+            own_timbres: self.own_timbres.presets(),
             sounds,
             attract,
             labels,

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::quantity::*;
-use super::Name;
+use super::{Function, Name};
 
 /// A collision shape.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -221,8 +221,15 @@ pub struct Sound {
     pub on: Trigger,
     /// Of wind: the wire that sings; only wind across it sounds.
     pub wire: Option<String>,
-    /// Name of the timbre.
+    /// Of wind: whose air it is.
+    #[serde(default)]
+    pub air: AirOf,
+    /// Name of the timbre: a file of the exhibit's own folder `timbres`, or a shipped one.
     pub timbre: String,
+    /// The constraint or spring whose force the timbre follows.
+    pub force_of: Option<Name>,
+    /// A number that the timbre follows; it may change with time.
+    pub parameter: Option<Function<f64>>,
     /// Level.
     #[serde(default)]
     pub gain: Decibel,
@@ -248,6 +255,17 @@ pub struct SoundParams {
     pub thickness: Option<Length>,
 }
 
+/// Whose air a sound of wind follows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum AirOf {
+    /// The air at all wind surfaces.
+    #[default]
+    Exhibit,
+    /// The air at the wind surfaces of the body.
+    Body,
+}
+
 /// What triggers a sound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -256,6 +274,8 @@ pub enum Trigger {
     Impact,
     /// A contact that slides or rolls over the body.
     Slide,
-    /// Wind at the body.
+    /// Wind.
     Wind,
+    /// Motion of the body: what the timbre follows of it.
+    Motion,
 }

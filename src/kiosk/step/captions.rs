@@ -4,7 +4,7 @@
 
 use soffio_exhibit::{Exhibit, SoundBinding, SoundTrigger};
 use soffio_simulation::STEPS_PER_SECOND;
-use soffio_sound::SoundCommand;
+use soffio_sound::{BodyMotion, SoundCommand};
 
 /// Time for which a caption is shown, s: long enough to be read.
 const STAYS: f64 = 2.0;
@@ -12,6 +12,8 @@ const STAYS: f64 = 2.0;
 const HIT: f32 = 0.02;
 /// Least speed of an audible wind, m/s.
 const WIND: f32 = 0.8;
+/// Least speed (m/s) or spin (rad/s) of an audible motion: a slow swing.
+const MOVES: [f32; 2] = [0.1, 0.5];
 /// Most captions at once.
 const MOST: usize = 2;
 
@@ -32,7 +34,7 @@ impl Captions {
         for command in sounds {
             for (index, sound) in exhibit.sounds.iter().enumerate() {
                 match (command, sound.on) {
-                    (SoundCommand::Strike(strike), SoundTrigger::Impact)
+                    (SoundCommand::Strike(strike), SoundTrigger::Impact | SoundTrigger::Motion)
                         if plays(sound, strike.instrument) && strike.speed > HIT =>
                     {
                         self.played_at[index] = Some(step);
@@ -40,8 +42,14 @@ impl Captions {
                     (SoundCommand::Slide(slide), SoundTrigger::Slide) if plays(sound, slide.instrument) => {
                         self.sliding[index] = slide.force > 0.0 && slide.speed > 0.0;
                     }
-                    (SoundCommand::Wind(wind), SoundTrigger::Wind) if wind.speed > WIND => {
+                    (SoundCommand::Wind(wind), SoundTrigger::Wind) if plays(sound, wind.instrument) && wind.speed > WIND => {
                         self.played_at[index] = Some(step);
+                    }
+                    (SoundCommand::Motion(moving), SoundTrigger::Motion) if plays(sound, moving.instrument) => {
+                        let BodyMotion { speed, spin, .. } = moving.motion;
+                        if speed > MOVES[0] || spin > MOVES[1] {
+                            self.played_at[index] = Some(step);
+                        }
                     }
                     _ => {}
                 }

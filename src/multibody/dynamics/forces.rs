@@ -186,6 +186,11 @@ impl Springs {
             .sum()
     }
 
+    /// Force (N) or torque (N m) that shortens a spring, in the attitudes of the last evaluation; 0 while it is open.
+    pub fn pull(&self, index: usize, bodies: &[RigidBody], t: f64) -> f64 {
+        self.force(index, bodies, t).0
+    }
+
     fn update_frames(&mut self, bodies: &[RigidBody]) {
         for (frame, body) in self.frames.iter_mut().zip(bodies) {
             *frame = matrix(body.rotation);

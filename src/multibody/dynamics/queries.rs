@@ -72,6 +72,17 @@ impl Dynamics {
         loads
     }
 
+    /// Force of the joint of a constraint when last evaluated, N, as [`Self::joint_loads`] has it; 0 for couplings and trains.
+    pub fn joint_load(&self, constraint: usize) -> f64 {
+        let joints = self.equations.system.joints().iter().zip(self.loads.all());
+        joints.filter(|(joint, _)| joint.constraints.contains(&constraint)).map(|(_, load)| *load).sum()
+    }
+
+    /// Pull of a spring, N, or its torque, N m: positive where it shortens.
+    pub fn spring_pull(&self, spring: usize) -> f64 {
+        self.equations.springs.pull(spring, &self.bodies, self.time)
+    }
+
     /// Kinetic and potential energy, springs included, J.
     pub fn energy(&self) -> f64 {
         forces::mechanical_energy(&self.bodies, self.settings.gravity)

@@ -25,6 +25,7 @@ fn main() -> Result<(), hound::Error> {
     let material = SoundMaterial { youngs_modulus: 68.9e9, poisson: 0.33, density: 2710.0, loss_factor: 1e-4 };
     let spec = InstrumentSpec {
         timbre: "chime-aluminium".into(),
+        own: None,
         body: tube(),
         material,
         surface: None,

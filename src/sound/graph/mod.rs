@@ -13,6 +13,7 @@ mod noises;
 mod operator;
 mod state;
 mod surface;
+mod tones;
 
 use super::InstrumentSpec;
 use super::shared::Shared;

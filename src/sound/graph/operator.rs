@@ -6,9 +6,10 @@ use super::block::{AudioBlock, CONTROL_PERIOD};
 use super::noises::{Pink, Slow};
 use super::state::OperatorState;
 use super::surface::Pyramid;
+use super::tones::{Tone, begin_formula, control_formula, render_formula};
 use crate::SurfaceLine;
 use crate::shared::Shared;
-use crate::timbre::{FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
+use crate::timbre::{Expression, FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
 use soffio_math::exp;
 
 /// Level below which an envelope ends: −120 dB, 24 dB below the steps of 16 bits.
@@ -21,6 +22,8 @@ pub(super) enum OperatorKind {
     White,
     Pink(Pink),
     Slow(Slow),
+    Tone(Tone),
+    Formula(Expression),
     Texture {
         line: Arc<Pyramid>,
         speed: Number,
@@ -61,6 +64,9 @@ impl OperatorKind {
                 NoiseKind::Pink => Self::Pink(Pink::new()),
                 NoiseKind::Perlin | NoiseKind::Multifractal => Self::Slow(Slow::new(noise)),
             },
+            Node::Oscillator(oscillator) => Self::Tone(Tone::oscillator(oscillator)),
+            Node::Fm(fm) => Self::Tone(Tone::fm(fm)),
+            Node::Function(function) => Self::Formula(function.compile()?),
             Node::Texture(texture) => {
                 let line = match (texture.kind, surface) {
                     (TextureKind::Image, None) if texture.optional => return Ok(Self::Smooth),
@@ -96,6 +102,11 @@ impl OperatorKind {
                 state.change = exp(-1.0 / (decay.at(inputs).max(SHORTEST) * sample_rate));
             }
             Self::Slow(slow) => slow.begin(state, seed, time, sample_rate),
+            Self::Tone(tone) => tone.begin(state, inputs, sample_rate),
+            Self::Formula(formula) => {
+                begin_formula(formula, state, inputs);
+                state.step = 1.0 / sample_rate;
+            }
             Self::Texture { line, speed } => {
                 // Anywhere on the surface: no two strokes are the same.
                 state.place = state.random.unit() * line.points() as f64;
@@ -114,6 +125,8 @@ impl OperatorKind {
     pub fn control(&self, state: &mut OperatorState, inputs: &Inputs, seed: u64, time: f64, sample_rate: f64) {
         match self {
             Self::Slow(slow) => slow.control(state, seed, time, sample_rate),
+            Self::Tone(tone) => tone.control(state, inputs, sample_rate),
+            Self::Formula(formula) => control_formula(formula, state, inputs),
             Self::Texture { line, speed } => {
                 let target = line.step(speed.at(inputs), sample_rate);
                 state.change = (target - state.value) / CONTROL_PERIOD as f64;
@@ -138,6 +151,8 @@ impl OperatorKind {
             (Self::White, _) => out.iter_mut().for_each(|y| *y = state.random.signed() as f32),
             (Self::Pink(pink), _) => pink.render(state, out),
             (Self::Slow(slow), _) => slow.render(state, out),
+            (Self::Tone(tone), modulation) => tone.render(state, modulation, out),
+            (Self::Formula(formula), _) => render_formula(formula, state, inputs, blocks, state.step, out),
             (Self::Texture { line, .. }, _) => line.render(state, out),
             (Self::Value, _) => out.fill(1.0),
             (Self::Filter { kind, .. }, Some(input)) => state.filter.render(*kind, input, out),

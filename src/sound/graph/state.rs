@@ -1,12 +1,40 @@
 //! What one operator of one voice remembers.
 
+use super::block::CONTROL_PERIOD;
 use super::delay::DelayLine;
 use super::filter::StateVariable;
-use crate::timbre::LONGEST_DELAY;
+use crate::timbre::{LONGEST_DELAY, MOST_INPUTS};
 use soffio_math::noise::Random;
 
 /// Sections of the pink filter: one every two octaves from 20 Hz, the last beyond 20 kHz.
 pub(super) const PINK: usize = 6;
+
+/// A value that glides along a straight line from one control point to the next.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Glide {
+    pub value: f64,
+    /// Per sample.
+    step: f64,
+}
+
+impl Glide {
+    /// At this value from now on.
+    pub fn at(value: f64) -> Self {
+        Self { value, step: 0.0 }
+    }
+
+    /// Sets the value that it reaches at the next control point.
+    pub fn towards(&mut self, target: f64) {
+        self.step = (target - self.value) / CONTROL_PERIOD as f64;
+    }
+
+    /// The value now; moves on by a sample.
+    pub fn next(&mut self) -> f64 {
+        let now = self.value;
+        self.value += self.step;
+        now
+    }
+}
 
 /// What one operator of one voice remembers.
 #[derive(Clone)]
@@ -27,6 +55,11 @@ pub(crate) struct OperatorState {
     /// Slow noise: its seed, and how many octaves are heard.
     pub(super) seed: u64,
     pub(super) octaves: u32,
+    /// Of an oscillator: frequency, index and modulator's frequency; of a formula: its inputs. Each glides from one control
+    /// point to the next.
+    pub(super) glides: [Glide; MOST_INPUTS],
+    /// Phases of an oscillator and its modulator, in periods. Of a formula: the time since it began, s.
+    pub(super) phases: [f64; 2],
     /// Slow noise at audio rate: its time and step. Texture: place on the line, in points.
     pub(super) place: f64,
     pub(super) step: f64,
@@ -53,6 +86,8 @@ impl OperatorState {
             rise: 0.0,
             seed: 0,
             octaves: 0,
+            glides: [Glide::default(); MOST_INPUTS],
+            phases: [0.0; 2],
             place: 0.0,
             step: 0.0,
             level: [0.0; 2],

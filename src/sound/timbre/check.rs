@@ -2,7 +2,7 @@
 
 use super::error::TimbreError;
 use super::limits::{LONGEST_DELAY, MAX_NODES, MAX_PARTIALS, VERSION};
-use super::node::{Delay, Map, Mix, Node, Noise, Texture};
+use super::node::{Delay, Map, Mix, Node, Noise, Oscillator, Texture};
 use super::number::Number;
 use super::preset::Preset;
 use super::read::hint;
@@ -87,6 +87,13 @@ impl Node {
                 let fine = positive(*resolution) && (2.0..=FINEST_GRAIN).contains(&(grain / resolution));
                 need(fine, "resolution", "must be 1/1000 to 1/2 of the grain, m")
             }
+            Self::Oscillator(Oscillator { phase, .. }) => {
+                need((0.0..=1.0).contains(phase), "phase", "must be 0 to 1, of a period")
+            }
+            Self::Function(function) => {
+                need(function.r#in.len() <= MAX_NODES, "in", "must name at most 16 nodes")?;
+                function.compile().map(drop).map_err(|problem| ("of", problem))
+            }
             Self::Map(Map { points, .. }) => {
                 let count = (2..=MOST_POINTS).contains(&points.len());
                 need(count, "points", "a curve has 2 to 64 points [in, out]")?;
@@ -105,7 +112,7 @@ impl Node {
             Self::Sum(Mix { r#in, .. }) | Self::Product(Mix { r#in, .. }) => {
                 need((1..=MAX_NODES).contains(&r#in.len()), "in", "must name 1 to 16 nodes")
             }
-            Self::Filter(_) | Self::Env(_) | Self::Value(_) => Ok(()),
+            Self::Filter(_) | Self::Env(_) | Self::Value(_) | Self::Fm(_) => Ok(()),
         }
     }
 }

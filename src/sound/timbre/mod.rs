@@ -6,6 +6,7 @@
 
 mod check;
 mod error;
+mod expression;
 mod limits;
 mod node;
 mod number;
@@ -16,8 +17,12 @@ mod source;
 mod specimen;
 
 pub use error::TimbreError;
+pub(super) use expression::{Expression, MOST_INPUTS};
 pub use limits::{LONGEST_DELAY, MAX_NODES, MAX_PARTIALS};
-pub use node::{Delay, Env, Filter, FilterKind, Map, Mix, Node, Noise, NoiseKind, Texture, TextureKind, Value};
+pub use node::{
+    Delay, Env, Filter, FilterKind, Fm, Function, Map, Mix, Node, Noise, NoiseKind, Oscillator, Texture, TextureKind,
+    Value, Waveform,
+};
 pub use number::{Binding, Factor, Input, Number, Term};
 pub(super) use number::{Inputs, Player};
 pub use preset::Preset;

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::number::{Input, Number, one};
+use super::expression::Expression;
+use super::number::{Input, Number, Player, one};
 use super::source::Modal;
 
 /// One operator of a timbre.
@@ -14,6 +15,12 @@ pub enum Node {
     Modal(Box<Modal>),
     /// Endless noise.
     Noise(Noise),
+    /// An endless periodic tone, whose phase another node may modulate.
+    Oscillator(Oscillator),
+    /// Frequency modulation: a sine whose frequency a second sine moves to and fro (Chowning, JAES 21, 1973).
+    Fm(Fm),
+    /// A formula of nodes, inputs and time.
+    Function(Function),
     /// A line across a surface, read at the place of the contact: the needle of a gramophone.
     Texture(Texture),
     /// State-variable or one-pole filter.
@@ -33,8 +40,21 @@ pub enum Node {
 }
 
 /// Names of the types of nodes.
-pub(super) const TYPES: [&str; 10] =
-    ["modal", "noise", "texture", "filter", "env", "value", "map", "delay", "sum", "product"];
+pub(super) const TYPES: [&str; 13] = [
+    "modal",
+    "noise",
+    "oscillator",
+    "fm",
+    "function",
+    "texture",
+    "filter",
+    "env",
+    "value",
+    "map",
+    "delay",
+    "sum",
+    "product",
+];
 
 /// Endless noise.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
@@ -70,6 +90,76 @@ pub enum NoiseKind {
     Perlin,
     /// Gusts: a product of octaves of gradient noise, mean 1 ([`multifractal`](crate::multifractal)).
     Multifractal,
+}
+
+/// An endless periodic tone of amplitude 1.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Oscillator {
+    /// Its waveform.
+    #[serde(default)]
+    pub shape: Waveform,
+    /// Hz; a negative one counts as positive.
+    pub frequency: Number,
+    /// Where in its period it begins, 0…1.
+    #[serde(default)]
+    pub phase: f64,
+    /// Node that modulates the phase.
+    pub r#in: Option<String>,
+    /// Phase that this node adds where its sample is 1, rad.
+    #[serde(default = "one")]
+    pub index: Number,
+    /// Linear gain of the node's output.
+    #[serde(default = "one")]
+    pub gain: Number,
+}
+
+/// Waveform of an oscillator. Corners are rounded so far that they do not alias.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Waveform {
+    /// The fundamental alone.
+    #[default]
+    Sine,
+    /// Odd harmonics that fall with the square of their number.
+    Triangle,
+    /// All harmonics, falling with their number: it rises and jumps back.
+    Saw,
+    /// Odd harmonics that fall with their number.
+    Square,
+}
+
+/// sin(2π f t + I sin(2π r f t)) of amplitude 1: partials at f ± k r f with the amplitudes of Bessel's functions J_k(I).
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Fm {
+    /// Frequency f of the carrier, Hz.
+    pub carrier: Number,
+    /// Frequency of the modulator over that of the carrier, r; whole numbers sound harmonic, others like metal.
+    #[serde(default = "one")]
+    pub ratio: Number,
+    /// Index of the modulation I, rad: larger is brighter.
+    #[serde(default = "one")]
+    pub index: Number,
+    /// Linear gain of the node's output.
+    #[serde(default = "one")]
+    pub gain: Number,
+}
+
+/// A formula of nodes, inputs and time.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct Function {
+    /// Nodes that the formula names.
+    #[serde(default)]
+    pub r#in: Vec<String>,
+    /// The formula, such as `"low * max(0, body_spin - 2) + 0.1 * sin(2 * pi * 3 * t)"`: signs + − * / % ^, the functions sin,
+    /// cos, exp, ln, sqrt, tanh, abs, floor, min, max, clamp(x, low, high) and step(edge, x), the nodes of `in`, inputs, the time
+    /// t since the sound began in s, and pi.
+    pub of: String,
+    /// Linear gain of the node's output.
+    #[serde(default = "one")]
+    pub gain: Number,
 }
 
 /// A line across a surface.
@@ -242,12 +332,24 @@ fn ten_micrometres() -> f64 {
     1e-5
 }
 
+impl Function {
+    /// The formula as a program.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn compile(&self) -> Result<Expression, String> {
+        Expression::parse(&self.of, &self.r#in)
+    }
+}
+
 impl Node {
     /// Names of the nodes it takes.
     pub(crate) fn inputs(&self) -> &[String] {
         match self {
             Self::Modal(modal) => modal.r#in.as_slice(),
-            Self::Noise(_) | Self::Texture(_) | Self::Value(_) => &[],
+            Self::Noise(_) | Self::Fm(_) | Self::Texture(_) | Self::Value(_) => &[],
+            Self::Oscillator(oscillator) => oscillator.r#in.as_slice(),
+            Self::Function(function) => &function.r#in,
             Self::Filter(Filter { r#in, .. })
             | Self::Env(Env { r#in, .. })
             | Self::Map(Map { r#in, .. })
@@ -261,6 +363,9 @@ impl Node {
         match self {
             Self::Modal(modal) => modal.gain,
             Self::Noise(Noise { gain, .. })
+            | Self::Oscillator(Oscillator { gain, .. })
+            | Self::Fm(Fm { gain, .. })
+            | Self::Function(Function { gain, .. })
             | Self::Texture(Texture { gain, .. })
             | Self::Filter(Filter { gain, .. })
             | Self::Env(Env { gain, .. })
@@ -280,8 +385,29 @@ impl Node {
             Self::Env(env) => numbers.extend([("attack", env.attack), ("decay", env.decay)]),
             Self::Texture(texture) => numbers.push(("speed", texture.speed)),
             Self::Delay(delay) => numbers.push(("time", delay.time)),
+            Self::Oscillator(Oscillator { frequency, index, .. }) => {
+                numbers.extend([("frequency", *frequency), ("index", *index)]);
+            }
+            Self::Fm(Fm { carrier, ratio, index, .. }) => {
+                numbers.extend([("carrier", *carrier), ("ratio", *ratio), ("index", *index)]);
+            }
             _ => {}
         }
         numbers
+    }
+
+    /// Everything that it follows.
+    pub(super) fn follows(&self) -> Vec<Input> {
+        let formula = match self {
+            Self::Function(function) => function.compile().map(|formula| formula.inputs).unwrap_or_default(),
+            _ => Vec::new(),
+        };
+        let numbers = self.numbers();
+        numbers.iter().flat_map(|(_, number)| number.inputs()).chain(formula).collect()
+    }
+
+    /// Whether it follows an input that plays timbres so.
+    pub(super) fn is_played_by(&self, player: Player) -> bool {
+        self.follows().iter().any(|input| input.player() == player)
     }
 }

@@ -13,12 +13,13 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use crate::BodyMotion;
 use soffio_math::pow;
 
 /// Most factors, and most terms, of one number: bounds the work of a reading.
 pub const MAX_FACTORS: usize = 3;
 /// Bound of the magnitude of every number, in its own unit: beyond it a file is wrong.
-const BOUND: f64 = 1e12;
+pub(super) const BOUND: f64 = 1e12;
 
 /// A number of a preset: fixed, or following the motion.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq)]
@@ -166,7 +167,7 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// What a number can follow. Inputs of wind and touch change all the time, the others are those of the hit.
+/// What a number can follow. Inputs of wind, touch and motion change all the time, the others are those of the hit.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Input {
@@ -194,7 +195,47 @@ pub enum Input {
     WindDirection,
     /// Relative gust, about ±1.
     Gust,
+    /// Speed of the body's centre of mass, m/s.
+    BodySpeed,
+    /// Angular speed of the body, rad/s.
+    BodySpin,
+    /// Force of the joint that the sound names, N.
+    JointForce,
+    /// Pull of the spring or cord that the sound names, N.
+    Tension,
+    /// Way of the centre of mass along its path since the start, m.
+    Way,
+    /// Height of the centre of mass above its start, m.
+    Height,
+    /// Distance of the body from the visitor, m.
+    Distance,
+    /// The sound's own `parameter` in the exhibit, in its own unit.
+    Parameter,
 }
+
+/// Names of the inputs as files write them.
+pub(crate) const INPUTS: [(&str, Input); 20] = [
+    ("impulse", Input::Impulse),
+    ("speed", Input::Speed),
+    ("mass", Input::Mass),
+    ("contact_time", Input::ContactTime),
+    ("rigid_pressure", Input::RigidPressure),
+    ("position_x", Input::PositionX),
+    ("position_y", Input::PositionY),
+    ("slip_speed", Input::SlipSpeed),
+    ("normal_force", Input::NormalForce),
+    ("wind_speed", Input::WindSpeed),
+    ("wind_direction", Input::WindDirection),
+    ("gust", Input::Gust),
+    ("body_speed", Input::BodySpeed),
+    ("body_spin", Input::BodySpin),
+    ("joint_force", Input::JointForce),
+    ("tension", Input::Tension),
+    ("way", Input::Way),
+    ("height", Input::Height),
+    ("distance", Input::Distance),
+    ("parameter", Input::Parameter),
+];
 
 /// Values of all inputs at one moment, by the names of [`Input`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -221,10 +262,14 @@ pub(crate) struct Inputs {
     pub wind_direction: f64,
     /// Relative gust, about ±1.
     pub gust: f64,
+    /// Motion of the body.
+    pub motion: BodyMotion,
+    /// Distance of the body from the visitor, m.
+    pub distance: f64,
 }
 
 impl Inputs {
-    fn of(&self, input: Input) -> f64 {
+    pub(crate) fn of(&self, input: Input) -> f64 {
         match input {
             Input::Impulse => self.impulse,
             Input::Speed => self.speed,
@@ -238,6 +283,14 @@ impl Inputs {
             Input::WindSpeed => self.wind_speed,
             Input::WindDirection => self.wind_direction,
             Input::Gust => self.gust,
+            Input::BodySpeed => f64::from(self.motion.speed),
+            Input::BodySpin => f64::from(self.motion.spin),
+            Input::JointForce => f64::from(self.motion.joint_force),
+            Input::Tension => f64::from(self.motion.tension),
+            Input::Way => f64::from(self.motion.way),
+            Input::Height => f64::from(self.motion.height),
+            Input::Distance => self.distance,
+            Input::Parameter => f64::from(self.motion.parameter),
         }
     }
 }
@@ -318,6 +371,7 @@ pub(crate) enum Player {
     Hit,
     Wind,
     Slide,
+    Motion,
 }
 
 impl Input {
@@ -325,7 +379,21 @@ impl Input {
         match self {
             Self::WindSpeed | Self::WindDirection | Self::Gust => Player::Wind,
             Self::SlipSpeed | Self::NormalForce => Player::Slide,
-            _ => Player::Hit,
+            Self::BodySpeed
+            | Self::BodySpin
+            | Self::JointForce
+            | Self::Tension
+            | Self::Way
+            | Self::Height
+            | Self::Distance
+            | Self::Parameter => Player::Motion,
+            Self::Impulse
+            | Self::Speed
+            | Self::Mass
+            | Self::ContactTime
+            | Self::RigidPressure
+            | Self::PositionX
+            | Self::PositionY => Player::Hit,
         }
     }
 }

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 
 use super::error::TimbreError;
 use super::node::Node;
-use super::number::Player;
+use super::number::{Input, Player};
 use super::read;
 use super::shipped::{names, source};
 use super::source::Modal;
@@ -68,7 +68,7 @@ impl Preset {
         })
     }
 
-    /// Is it a sustained sound, which wind or a slide plays? Otherwise each hit plays it once.
+    /// Is it a sustained sound, which wind, a slide or motion plays? Otherwise each hit plays it once.
     pub fn continuous(&self) -> bool {
         self.player() != Player::Hit
     }
@@ -78,17 +78,55 @@ impl Preset {
         self.player() == Player::Slide
     }
 
+    /// Whether the motion of its body plays it.
+    pub fn moves(&self) -> bool {
+        self.player() == Player::Motion
+    }
+
+    /// Whether anything of it follows the wind.
+    pub fn follows_wind(&self) -> bool {
+        self.follows(Player::Wind)
+    }
+
+    /// Whether anything of it follows the motion of its body.
+    pub fn follows_motion(&self) -> bool {
+        self.follows(Player::Motion)
+    }
+
+    /// Whether any number or formula of it follows this input.
+    pub fn follows_input(&self, input: Input) -> bool {
+        self.node.values().any(|node| node.follows().contains(&input))
+    }
+
+    /// Line, from 1, of the key of an error in the text of a preset, or of the nearest table around it.
+    pub fn line_of(text: &str, key: &str) -> Option<usize> {
+        read::line(text, key)
+    }
+
+    /// Whether a hit makes something of it ring, whatever else plays it: it has partials that no node drives.
+    pub fn rings(&self) -> bool {
+        self.modal().is_some_and(|(_, modal)| modal.r#in.is_none())
+    }
+
+    fn follows(&self, player: Player) -> bool {
+        self.node.values().any(|node| node.is_played_by(player))
+    }
+
+    /// A slide plays what follows a slide, the wind what follows the wind. The motion plays what follows it, unless an envelope or
+    /// the strength of a hit says that each hit begins it anew. Partials that nothing drives wait for hits in any case.
     pub(crate) fn player(&self) -> Player {
-        let mut player = Player::Hit;
-        let numbers = self.node.values().flat_map(Node::numbers);
-        for input in numbers.flat_map(|(_, number)| number.inputs().collect::<Vec<_>>()) {
-            match input.player() {
-                Player::Slide => return Player::Slide,
-                Player::Wind => player = Player::Wind,
-                Player::Hit => {}
-            }
+        let waits = |node: &Node| matches!(node, Node::Modal(modal) if modal.r#in.is_none());
+        let begins = |node: &Node| matches!(node, Node::Env(_)) || node.is_played_by(Player::Hit);
+        let mut sustained = self.node.values().filter(|node| !waits(node));
+        if self.follows(Player::Slide) {
+            Player::Slide
+        } else if self.follows(Player::Wind) {
+            Player::Wind
+        } else if sustained.clone().any(|node| node.is_played_by(Player::Motion)) && !sustained.any(begins) {
+            Player::Motion
+        } else {
+            Player::Hit
         }
-        player
     }
 
     /// Names of the nodes that `out` needs, each after those it takes.

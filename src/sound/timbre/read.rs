@@ -99,6 +99,9 @@ fn node(name: &str, path: &str, mut table: Table) -> Result<Node, TimbreError> {
     Ok(match kind.as_str() {
         "modal" => Node::Modal(Box::new(modal(name, path, table)?)),
         "noise" => Node::Noise(read(name, path, table, &[])?),
+        "oscillator" => Node::Oscillator(read(name, path, table, &[])?),
+        "fm" => Node::Fm(read(name, path, table, &[])?),
+        "function" => Node::Function(read(name, path, table, &[])?),
         "texture" => Node::Texture(read(name, path, table, &[])?),
         "filter" => Node::Filter(read(name, path, table, &[])?),
         "env" => Node::Env(read(name, path, table, &[])?),

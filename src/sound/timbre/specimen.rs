@@ -3,7 +3,11 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::super::{InstrumentSpec, SoundBody, SoundMaterial};
+use super::number::Player;
+use super::preset::Preset;
+use crate::{
+    BodyMotion, InstrumentSpec, MotionSound, Slide, SoundBody, SoundCommand, SoundMaterial, Strike, WindSound,
+};
 use soffio_math::PI;
 
 /// A body and a way to play it. The defaults: a steel disc of 12 cm, half a millimetre thick.
@@ -44,6 +48,18 @@ pub struct Specimen {
     pub slip: f64,
     /// Force of sliding, N.
     pub force: f64,
+    /// Speed of the body, m/s.
+    pub body_speed: f64,
+    /// Angular speed of the body, rad/s.
+    pub body_spin: f64,
+    /// Force of a joint, N.
+    pub joint_force: f64,
+    /// Pull of a spring or cord, N.
+    pub tension: f64,
+    /// Height above the start, m.
+    pub height: f64,
+    /// The sound's own parameter.
+    pub parameter: f64,
 }
 
 /// Shape of a specimen.
@@ -79,6 +95,12 @@ impl Default for Specimen {
             wind: 2.0,
             slip: 0.2,
             force: 2.0,
+            body_speed: 0.5,
+            body_spin: 3.0,
+            joint_force: 1.0,
+            tension: 1.0,
+            height: 0.1,
+            parameter: 1.0,
         }
     }
 }
@@ -97,6 +119,37 @@ impl Specimen {
             ("hit_mass", self.hit_mass),
         ];
         above_zero.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0))
+    }
+
+    /// The command that plays a timbre on the body from this sample on, 1 m away: a hit, wind, a slide or motion.
+    pub fn command(&self, preset: &Preset, instrument: u16, sample: u64) -> SoundCommand {
+        let (pan, distance) = (0.0, 1.0);
+        let position = [self.at as f32, self.at_y as f32];
+        match preset.player() {
+            Player::Hit => {
+                let (impulse, speed, mass) = (self.impulse as f32, self.speed as f32, self.hit_mass as f32);
+                SoundCommand::Strike(Strike { sample, instrument, impulse, speed, mass, position, pan, distance })
+            }
+            Player::Wind => {
+                SoundCommand::Wind(WindSound { sample, instrument, speed: self.wind as f32, ..WindSound::default() })
+            }
+            Player::Slide => {
+                let (speed, force) = (self.slip as f32, self.force as f32);
+                SoundCommand::Slide(Slide { sample, instrument, speed, force, position, pan, distance })
+            }
+            Player::Motion => {
+                let motion = BodyMotion {
+                    speed: self.body_speed as f32,
+                    spin: self.body_spin as f32,
+                    joint_force: self.joint_force as f32,
+                    tension: self.tension as f32,
+                    way: 0.0,
+                    height: self.height as f32,
+                    parameter: self.parameter as f32,
+                };
+                SoundCommand::Motion(MotionSound { sample, instrument, motion, pan, distance })
+            }
+        }
     }
 
     /// The body as an instrument of a timbre.
@@ -122,6 +175,6 @@ impl Specimen {
             density: self.density,
             loss_factor: self.loss_factor,
         };
-        InstrumentSpec { timbre: timbre.into(), body, material, surface: None, gain: 1.0, max_voices: 1 }
+        InstrumentSpec { timbre: timbre.into(), own: None, body, material, surface: None, gain: 1.0, max_voices: 1 }
     }
 }

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_math::{PI, StateHash, amplitude_to_db, asin, sin, sqrt};
+use soffio_math::{PI, StateHash, amplitude_to_db, sin, sqrt};
 use soffio_simulation::{
     Command, Event, EventKind, SAMPLES_PER_STEP, STEPS_PER_SECOND, Settings, Simulation, StepInput,
 };
-use soffio_sound::{Damp, Preset, Slide, SoundCommand, Strike, Synth, WindExposure, WindSound};
+use soffio_sound::{Damp, Preset, Slide, SoundCommand, Strike, Synth, WindSound};
 
 use super::{RATE, render, rms, spec, spectrum};
 use crate::exhibit::glb::{Folder, Scene, cuboid, sheet};
@@ -432,56 +432,80 @@ fn a_timbre_that_the_motion_does_not_play_is_refused() {
 
 #[test]
 fn wires_hear_what_blows_across_them() {
-    // Three wires at right angles: the squares of their sines with any wind are 2 together. Each wire is updated after changes
-    // above 0.01 of the wind, so its share s is off by δ ≤ 0.01, and its square by 2 s δ + δ². With Σ s² = 2
-    // the sum of three shares is √6 at most: 2·√6·0.01 + 3·0.01² = 0.0493.
-    const TOLD: f64 = 0.0493;
+    // Three wires at right angles in an even draught: the squares of what crosses them are twice its own square together. A command
+    // tells a change from 0.01 m/s on, and f32 has seven digits.
+    const TOLD: f64 = 0.02;
     let mut scene = Scene::default();
     scene.node("Post", [0.0; 3], Some(&cuboid([0.1; 3])), &[]);
-    let mut sidecar = hard(0.5, 0.5) + &body("Post", "{ box = { size = [0.1, 0.1, 0.1] } }", "");
-    sidecar += "[[constraint.weld]]\nname = \"held\"\nbody = \"Post\"\n";
-    for (name, end) in [("x", "[0.2, 0, 0]"), ("y", "[0, 0.2, 0]"), ("z", "[0, 0, 0.2]")] {
-        sidecar += &format!(
-            "[[wire]]\nname = \"{name}\"\nbody = \"Post\"\npoints = [[0, 0, 0], {end}]\nradius = \"0.4 mm\"\nmaterial = \"steel\"\n\
-             [[sound]]\nname = \"sings-{name}\"\nbody = \"Post\"\non = \"wind\"\nwire = \"{name}\"\ntimbre = \"wind-wire\"\n"
-        );
-    }
-    let mut simulation = Simulation::new(load(&scene, &sidecar), Settings::default());
-    let blow = [Command::Blow(Some(6.0))];
-    let (mut shares, mut last) = ([1.0f64; 3], WindSound::default());
-    for pointer in [[0.5, 0.5], [0.9, 0.5], [0.1, 0.5]] {
-        for _ in 0..120 {
-            simulation.step(&StepInput { commands: &blow, pointer: Some(pointer), ..StepInput::default() });
+    for direction in [[1.0, 0.0, 0.0], [0.3, -0.5, 0.8], [1.0, 1.0, -1.0]] {
+        let mut sidecar = hard(0.5, 0.5) + &body("Post", "{ box = { size = [0.1, 0.1, 0.1] } }", "");
+        sidecar += "[[constraint.weld]]\nname = \"held\"\nbody = \"Post\"\n";
+        sidecar += &format!("[[wind.draught]]\nname = \"door\"\ndirection = {direction:?}\nspeed = 3\n");
+        for (name, end) in [("x", "[0.2, 0, 0]"), ("y", "[0, 0.2, 0]"), ("z", "[0, 0, 0.2]")] {
+            sidecar += &format!(
+                "[[wire]]\nname = \"{name}\"\nbody = \"Post\"\npoints = [[0, 0, 0], {end}]\nradius = \"0.4 mm\"\nmaterial = \"steel\"\n\
+                 [[sound]]\nname = \"sings-{name}\"\nbody = \"Post\"\non = \"wind\"\nwire = \"{name}\"\ntimbre = \"wind-wire\"\n"
+            );
+        }
+        let mut simulation = Simulation::new(load(&scene, &sidecar), Settings::default());
+        let mut winds = [WindSound::default(); 3];
+        for _ in 0..24 {
+            simulation.step(&StepInput::default());
             for command in simulation.sounds() {
-                match *command {
-                    SoundCommand::WindExposure(WindExposure { instrument, share, .. }) => {
-                        shares[usize::from(instrument)] = f64::from(share);
-                    }
-                    SoundCommand::Wind(wind) => last = wind,
-                    _ => {}
+                if let SoundCommand::Wind(wind) = *command {
+                    winds[usize::from(wind.instrument)] = wind;
                 }
             }
         }
-        let sum: f64 = shares.iter().map(|share| share * share).sum();
-        assert!((sum - 2.0).abs() < TOLD, "{shares:?}");
-        println!("aimed at {pointer:?}: wires hear {shares:.2?}, direction {:.2} rad", last.direction);
-        // Seen from where it is blown, the way it goes: to the side that it is aimed at.
-        let side = pointer[0] - 0.5;
-        assert!(last.speed > 0.1 && f64::from(last.direction) * side >= 0.0, "{last:?}");
-        assert!(side == 0.0 || asin(sin(f64::from(last.direction))).abs() > 0.02, "{last:?}");
+        let length = direction.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+        for (wind, along) in winds.iter().zip(direction) {
+            let across = 3.0 * (1.0 - (along / length) * (along / length)).max(0.0).sqrt();
+            assert!((f64::from(wind.speed) - across).abs() < TOLD, "{direction:?}: {} instead of {across}", wind.speed);
+        }
     }
     // The tone of a wire follows what crosses it: half of the wind, half of the pitch.
-    let tone = |share: f32| {
+    let tone = |speed: f32| {
         let preset = Preset::shipped("wind-wire").expect("valid");
         let mut synth = Synth::with_preset(RATE, &preset, &spec("x"), 1).expect("compiles");
         synth.set_dry(true);
-        synth.command(SoundCommand::WindExposure(WindExposure { sample: 0, instrument: 0, share }));
-        synth.command(SoundCommand::Wind(WindSound { sample: 0, speed: 6.0, ..WindSound::default() }));
+        synth.command(SoundCommand::Wind(WindSound { sample: 0, speed, ..WindSound::default() }));
         render(&mut synth, RATE as usize / 2);
         let out: Vec<f64> = render(&mut synth, 10 * RATE as usize).chunks(2).map(|f| f64::from(f[0])).collect();
         let power = spectrum(&out, 1 << 14);
         (0..power.len()).max_by(|a, b| power[*a].total_cmp(&power[*b])).expect("bins") as f64
     };
-    let ratio = tone(0.5) / tone(1.0);
+    let ratio = tone(3.0) / tone(6.0);
     assert!((ratio - 0.5).abs() < 0.04, "{ratio}");
+}
+
+#[test]
+fn sound_of_the_breath_comes_from_where_it_is_aimed() {
+    let mut scene = Scene::default();
+    for (name, x) in [("Left", -0.3), ("Middle", 0.0), ("Right", 0.3)] {
+        scene.node(name, [x, 0.0, 0.0], Some(&cuboid([0.1; 3])), &[]);
+    }
+    let mut sidecar = hard(0.5, 0.5);
+    for name in ["Left", "Middle", "Right"] {
+        sidecar += &body(name, "{ box = { size = [0.1, 0.1, 0.1] } }", "");
+        sidecar += &format!("[[constraint.weld]]\nname = \"held-{name}\"\nbody = \"{name}\"\n[[wind_surface]]\nnode = \"{name}\"\n");
+    }
+    sidecar += &sound("Middle", "wind", "wind-room");
+    let mut simulation = Simulation::new(load(&scene, &sidecar), Settings::default());
+    let blow = [Command::Blow(Some(6.0))];
+    for pointer in [[0.5, 0.5], [0.9, 0.5], [0.1, 0.5]] {
+        let mut last = WindSound::default();
+        for _ in 0..120 {
+            simulation.step(&StepInput { commands: &blow, pointer: Some(pointer), ..StepInput::default() });
+            for command in simulation.sounds() {
+                if let SoundCommand::Wind(wind) = *command {
+                    last = wind;
+                }
+            }
+        }
+        // Seen from where it is blown, the way it goes: to the side that it is aimed at.
+        let side = pointer[0] - 0.5;
+        println!("aimed at {pointer:?}: {last:?}");
+        assert!(last.speed > 0.1 && f64::from(last.direction) * side >= 0.0, "{last:?}");
+        assert!(side == 0.0 || f64::from(last.pan) * side > 0.0, "{last:?}");
+    }
 }

@@ -20,6 +20,7 @@ fn disc(radius: f64, thickness: f64) -> SoundBody {
 fn spec(timbre: &str) -> InstrumentSpec {
     InstrumentSpec {
         timbre: timbre.into(),
+        own: None,
         body: disc(0.06, 5e-4),
         material: steel(),
         surface: None,

@@ -20,7 +20,7 @@ pub(crate) fn interpolation(given: sidecar::Interpolation) -> Interpolation {
 
 impl Context<'_> {
     /// A function of time; reports its problems.
-    pub(super) fn function<Q: Quantity>(&mut self, given: &sidecar::Function<Q>, at: &str) -> Function {
+    pub(crate) fn function<Q: Quantity>(&mut self, given: &sidecar::Function<Q>, at: &str) -> Function {
         match given {
             sidecar::Function::Value(value) => value.si().into(),
             sidecar::Function::Keys(given) => {

@@ -305,3 +305,36 @@ fn undirected_wind_hardly_changes_a_breath_of_large_gain_on_a_solid() {
     println!("the undirected wind changes a breath by {alike:.2}, with a gain of {GAIN} by {stronger:.2}");
     assert!(alike > 0.3 && stronger < LEFT * alike, "{alike} and {stronger}");
 }
+
+#[test]
+fn the_air_over_a_surface_is_as_loud_as_its_area_and_the_sixth_power_of_its_speed() {
+    // Patches are drawn at random: their mean lies within a tenth of the side of the middle.
+    const OF_THE_MIDDLE: f64 = 0.1;
+    const SEED: u64 = 24;
+    let mut random = Random::new(SEED);
+    let a = 0.1;
+    for case in 0..100 {
+        let (wind, moving) = any_case(&mut random);
+        let mut field = WindField::new(&[sheet(0, face(a), 200)], &[], &[draught(wind)], 1, 1);
+        field.apply_forces(&[moving], 0.0, None, &mut [[0.0; 6]]);
+        let [noise] = field.noise() else { panic!("one surface") };
+        let speed = (wind - moving.velocity).length();
+        let expected = a * a * speed.powi(6);
+        assert!(
+            (noise.power / expected - 1.0).abs() < ROUNDING,
+            "seed {SEED}, case {case}: {noise:?} against {expected}"
+        );
+        assert!((noise.speed(field.area(0)) / speed - 1.0).abs() < ROUNDING);
+        assert!((noise.flow.normalize() - (wind - moving.velocity) / speed).length() < ROUNDING);
+        let place = noise.place().expect("wind blows");
+        assert!(place.distance(moving.position) < OF_THE_MIDDLE * a, "{place}");
+        // Calm air around a body at rest makes no sound; around a body that moves it does.
+        let mut calm = WindField::new(&[sheet(0, face(a), 200)], &[], &[], 1, 1);
+        let rest = RigidBody { velocity: DVec3::ZERO, ..moving };
+        calm.apply_forces(&[rest], 0.0, None, &mut [[0.0; 6]]);
+        assert_eq!(calm.noise()[0].power, 0.0);
+        calm.apply_forces(&[moving], 0.0, None, &mut [[0.0; 6]]);
+        let expected = a * a * moving.velocity.length().powi(6);
+        assert!((calm.noise()[0].power / expected - 1.0).abs() < ROUNDING);
+    }
+}

@@ -7,6 +7,7 @@ mod sizes;
 mod sources;
 mod surfaces;
 mod timbres;
+mod tones;
 mod winds;
 
 use fearless_simd::Level;
@@ -33,6 +34,7 @@ fn disc(radius: f64, thickness: f64) -> SoundBody {
 fn spec(timbre: &str) -> InstrumentSpec {
     InstrumentSpec {
         timbre: timbre.into(),
+        own: None,
         body: disc(0.06, 5e-4),
         material: steel(),
         surface: None,
@@ -252,6 +254,7 @@ fn scene(seed: u64) -> (Vec<InstrumentSpec>, Vec<SoundCommand>) {
         let (speed, gust) = (random.range(0.0, 4.0) as f32, random.signed() as f32);
         commands.push(SoundCommand::Wind(WindSound {
             sample: step * 200,
+            instrument: 3,
             speed,
             gust,
             pan: 0.2,
@@ -597,7 +600,7 @@ fn wind_falls_exactly_silent_and_never_jumps() {
 fn silence_fades_everything() {
     let mut synth = synth(&[spec("bell"), spec("wind-room")]);
     synth.command(SoundCommand::Strike(strike(0, 1e-3)));
-    synth.command(SoundCommand::Wind(WindSound { sample: 0, speed: 3.0, ..WindSound::default() }));
+    synth.command(SoundCommand::Wind(WindSound { sample: 0, instrument: 1, speed: 3.0, ..WindSound::default() }));
     synth.command(SoundCommand::Silence { sample: 24_000 });
     let before = render(&mut synth, 24_000);
     assert!(peak(&before[40_000..]) > 1e-2);

@@ -2,38 +2,15 @@
 
 use soffio_math::amplitude_to_db;
 use soffio_sound::modes::T60_DECAYS;
-use soffio_sound::{Mode, Preset, Slide, SoundCommand, Strike, Synth, WindSound, partials, timbre};
+use soffio_sound::{Mode, Preset, Slide, SoundCommand, Synth, partials, timbre};
 
 use super::{RATE, amplitude, peak, render, rms};
-
-/// Plays a preset as its specimen says, from a sample on.
-pub fn play(synth: &mut Synth, preset: &Preset, sample: u64) {
-    let s = &preset.specimen;
-    let position = [s.at as f32, s.at_y as f32];
-    synth.command(if preset.slides() {
-        let (speed, force) = (s.slip as f32, s.force as f32);
-        SoundCommand::Slide(Slide { sample, instrument: 0, speed, force, position, pan: 0.0, distance: 1.0 })
-    } else if preset.continuous() {
-        SoundCommand::Wind(WindSound { sample, speed: s.wind as f32, ..WindSound::default() })
-    } else {
-        SoundCommand::Strike(Strike {
-            sample,
-            instrument: 0,
-            impulse: s.impulse as f32,
-            speed: s.speed as f32,
-            mass: s.hit_mass as f32,
-            position,
-            pan: 0.0,
-            distance: 1.0,
-        })
-    });
-}
 
 /// A preset on its specimen, played from the start, mono and dry.
 pub fn heard(preset: &Preset, seconds: f64) -> Vec<f64> {
     let mut synth = Synth::with_preset(RATE, preset, &preset.specimen.spec(&preset.name), 1).expect("compiles");
     synth.set_dry(true);
-    play(&mut synth, preset, 0);
+    synth.command(preset.specimen.command(preset, 0, 0));
     let out = render(&mut synth, (seconds * f64::from(RATE)) as usize);
     assert_eq!(synth.faults(), 0, "{}", preset.name);
     let side = std::f64::consts::SQRT_2;

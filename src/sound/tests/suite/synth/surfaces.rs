@@ -130,7 +130,7 @@ fn a_slide_ends_with_the_contact_and_scrapes_are_cut_like_everything_else() {
         let preset = Preset::shipped(name).expect("valid");
         let run = |block: usize| {
             let mut synth = Synth::with_preset(RATE, &preset, &preset.specimen.spec(name), 1).expect("compiles");
-            super::presets::play(&mut synth, &preset, 100);
+            synth.command(preset.specimen.command(&preset, 0, 100));
             synth.command(SoundCommand::Slide(Slide { sample: 5000, ..Slide::default() }));
             let mut out = Vec::new();
             while out.len() < 2 * 12_000 {

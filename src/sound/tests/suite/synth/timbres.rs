@@ -116,7 +116,7 @@ proptest! {
                 Ok(synth) => synth,
                 Err(_) => return Ok(()),
             };
-            super::presets::play(&mut synth, &preset, 0);
+            synth.command(preset.specimen.command(&preset, 0, 0));
             let out = render(&mut synth, 600);
             prop_assert!(out.iter().all(|s| s.is_finite() && s.abs() <= 1.0));
         }
