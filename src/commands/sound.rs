@@ -23,11 +23,12 @@ Example: soffio sound plate --impulse 5e-4 --at 0.8 -o clank.wav
          soffio sound wind-wire --wind 3 --seconds 10 -o wire.wav
          soffio sound --page out/sounds
 
-TIMBRE may also be a file of your own, such as my/gong.toml; its name inside is gong.
+TIMBRE may also be a file of your own, such as exhibits/my-mobile/timbres/gong.toml; its name inside is gong.
 
 Without flags a timbre is played as its [specimen] says. --set takes the specimen's dimensions and material
     radius, length, width, thickness (m), mass (kg), youngs_modulus (Pa), poisson, density (kg/m3), loss_factor,
 the hit's mass (hit_mass, kg), its place across (at_y, -1 to 1), the seed (seed),
+the motion of the body (body_speed in m/s, body_spin in rad/s, joint_force and tension in N, height in m, parameter),
 and any number of a node of the timbre (node.key, such as body.partials).")]
 pub struct Args {
     /// Name of a timbre, see --list, or a .toml file; with --page, without it all of them.
@@ -204,6 +205,12 @@ fn set(specimen: &mut Specimen, key: &str, value: f64) -> bool {
         "loss_factor" => specimen.loss_factor = value,
         "hit_mass" => specimen.hit_mass = value,
         "at_y" => specimen.at_y = value,
+        "body_speed" => specimen.body_speed = value,
+        "body_spin" => specimen.body_spin = value,
+        "joint_force" => specimen.joint_force = value,
+        "tension" => specimen.tension = value,
+        "height" => specimen.height = value,
+        "parameter" => specimen.parameter = value,
         _ => return false,
     }
     true

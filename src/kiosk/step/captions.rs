@@ -42,7 +42,9 @@ impl Captions {
                     (SoundCommand::Slide(slide), SoundTrigger::Slide) if plays(sound, slide.instrument) => {
                         self.sliding[index] = slide.force > 0.0 && slide.speed > 0.0;
                     }
-                    (SoundCommand::Wind(wind), SoundTrigger::Wind) if plays(sound, wind.instrument) && wind.speed > WIND => {
+                    (SoundCommand::Wind(wind), SoundTrigger::Wind)
+                        if plays(sound, wind.instrument) && wind.speed > WIND =>
+                    {
                         self.played_at[index] = Some(step);
                     }
                     (SoundCommand::Motion(moving), SoundTrigger::Motion) if plays(sound, moving.instrument) => {

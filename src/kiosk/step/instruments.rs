@@ -1,15 +1,19 @@
 //! Instruments of the synthesizer: those of the exhibit on show, and one more that staff try.
 
+use std::sync::Arc;
+
 use soffio_exhibit::Exhibit;
-use soffio_sound::timbre::{Specimen, names};
-use soffio_sound::{InstrumentSpec, Preset, ReverbSpec, Slide, SoundCommand, Strike, Synth};
+use soffio_sound::timbre::names;
+use soffio_sound::{
+    BodyMotion, InstrumentSpec, MotionSound, Preset, ReverbSpec, Slide, SoundCommand, Strike, Synth, WindSound,
+};
 
 /// Mass of the beater with which staff try an instrument, kg: a small wooden one.
 const BEATER: f64 = 0.01;
 /// Distance of its sound from the listener, m.
 const AWAY: f32 = 1.0;
-/// Length of a slide over a scraped timbre, audio samples: 0.8 s.
-const SCRAPE: u64 = 38_400;
+/// Length of a sustained sound, audio samples: 0.8 s.
+const SUSTAINED: u64 = 38_400;
 
 /// A sound that staff try through the live loudspeaker.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,52 +31,63 @@ pub struct Audition {
 pub enum AuditionTarget {
     /// One of the exhibit, by its index.
     Exhibit(usize),
-    /// A shipped timbre on its specimen.
-    Timbre(&'static str),
+    /// A timbre on its specimen.
+    Timbre(Arc<Preset>),
 }
 
-/// The shipped timbres that are hit or scraped: all except those of the wind.
-pub fn timbres() -> impl Iterator<Item = &'static str> {
-    names().filter(|name| preset(name).is_some_and(|preset| preset.slides() || !preset.continuous()))
+/// The shipped timbres.
+pub fn timbres() -> impl Iterator<Item = Arc<Preset>> {
+    names().filter_map(shipped)
 }
 
-fn preset(name: &str) -> Option<Preset> {
-    Preset::shipped(name).inspect_err(|error| tracing::error!("{error}")).ok()
+/// A shipped timbre; `None`, and a line in the log, where there is none of this name.
+pub fn shipped(name: &str) -> Option<Arc<Preset>> {
+    Preset::shipped(name).inspect_err(|error| tracing::error!("{error}")).ok().map(Arc::new)
 }
 
-/// A timbre with its specimen, the body on which it is tried.
+/// A timbre on its specimen, the body on which it is tried.
 #[derive(Clone, Debug)]
 pub struct AuditionInstrument {
-    /// Name of the timbre.
-    pub name: &'static str,
-    specimen: Specimen,
-    slides: bool,
+    /// The timbre.
+    pub preset: Arc<Preset>,
 }
 
 impl AuditionInstrument {
-    /// The shipped timbre of this name on its specimen; `None` where there is none.
-    pub fn new(name: &'static str) -> Option<Self> {
-        let preset = preset(name)?;
-        let slides = preset.slides();
-        Some(Self { name, specimen: preset.specimen, slides })
+    /// The body with the timbre, as an instrument.
+    pub fn spec(&self) -> InstrumentSpec {
+        let own = Some(self.preset.clone());
+        InstrumentSpec { own, ..self.preset.specimen.spec(&self.preset.name) }
     }
 
     /// Commands for the synth that play `audition` from the sample with number `sample` on. `instrument` is its index in the
-    /// synth, after those of the exhibit.
+    /// synth, after those of the exhibit. Hits and slides have the speed of the audition, wind and motion that of the specimen.
     pub fn play(&self, instrument: u16, audition: &Audition, sample: u64) -> Vec<SoundCommand> {
-        let s = &self.specimen;
-        let position = [s.at as f32, s.at_y as f32];
-        let (speed, pan) = (audition.speed as f32, audition.pan);
-        if self.slides {
-            let force = s.force as f32;
-            let slide = Slide { sample, instrument, speed, force, position, pan, distance: AWAY };
-            let end = Slide { sample: sample + SCRAPE, speed: 0.0, force: 0.0, ..slide };
-            return vec![SoundCommand::Slide(slide), SoundCommand::Slide(end)];
-        }
-        // The impulse of the specimen's own hit, scaled by the speed.
-        let impulse = s.impulse * audition.speed / s.speed.max(1e-3);
-        let (impulse, mass) = (impulse as f32, s.hit_mass as f32);
-        vec![SoundCommand::Strike(Strike { sample, instrument, impulse, speed, mass, position, pan, distance: AWAY })]
+        let s = &self.preset.specimen;
+        let (asked, pan) = (audition.speed as f32, audition.pan);
+        let mut command = s.command(&self.preset, instrument, sample);
+        let later = sample + SUSTAINED;
+        let end = match &mut command {
+            SoundCommand::Strike(strike) => {
+                // The impulse of the specimen's own hit, scaled by the speed.
+                strike.impulse = (s.impulse * audition.speed / s.speed.max(1e-3)) as f32;
+                (strike.speed, strike.pan) = (asked, pan);
+                None
+            }
+            SoundCommand::Slide(slide) => {
+                (slide.speed, slide.pan) = (asked, pan);
+                Some(SoundCommand::Slide(Slide { sample: later, speed: 0.0, force: 0.0, ..*slide }))
+            }
+            SoundCommand::Wind(wind) => {
+                wind.pan = pan;
+                Some(SoundCommand::Wind(WindSound { sample: later, speed: 0.0, ..*wind }))
+            }
+            SoundCommand::Motion(moving) => {
+                moving.pan = pan;
+                Some(SoundCommand::Motion(MotionSound { sample: later, motion: BodyMotion::default(), ..*moving }))
+            }
+            SoundCommand::Damp(_) | SoundCommand::Silence { .. } => None,
+        };
+        std::iter::once(command).chain(end).collect()
     }
 }
 
@@ -113,12 +128,7 @@ impl SynthSetup {
         audition_instrument: Option<&AuditionInstrument>,
     ) -> impl Fn(u32) -> Synth + Send + 'static {
         let own = exhibit.instruments.iter().cloned();
-        let instruments: Vec<InstrumentSpec> = own
-            .chain(
-                audition_instrument
-                    .map(|audition_instrument| audition_instrument.specimen.spec(audition_instrument.name)),
-            )
-            .collect();
+        let instruments: Vec<InstrumentSpec> = own.chain(audition_instrument.map(AuditionInstrument::spec)).collect();
         move |rate| {
             let mut synth = Synth::new(rate, &instruments, self.seed).unwrap_or_else(|error| {
                 tracing::error!("the exhibit stays silent: {error}");

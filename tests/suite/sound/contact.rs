@@ -487,7 +487,9 @@ fn sound_of_the_breath_comes_from_where_it_is_aimed() {
     let mut sidecar = hard(0.5, 0.5);
     for name in ["Left", "Middle", "Right"] {
         sidecar += &body(name, "{ box = { size = [0.1, 0.1, 0.1] } }", "");
-        sidecar += &format!("[[constraint.weld]]\nname = \"held-{name}\"\nbody = \"{name}\"\n[[wind_surface]]\nnode = \"{name}\"\n");
+        sidecar += &format!(
+            "[[constraint.weld]]\nname = \"held-{name}\"\nbody = \"{name}\"\n[[wind_surface]]\nnode = \"{name}\"\n"
+        );
     }
     sidecar += &sound("Middle", "wind", "wind-room");
     let mut simulation = Simulation::new(load(&scene, &sidecar), Settings::default());

@@ -72,13 +72,9 @@ impl Playback {
                     self.sounds.push(hit(index as u16, &audition, sample))
                 }
                 AuditionTarget::Exhibit(_) => {}
-                AuditionTarget::Timbre(name) => {
-                    if self
-                        .audition_instrument
-                        .as_ref()
-                        .is_none_or(|audition_instrument| audition_instrument.name != name)
-                    {
-                        self.audition_instrument = AuditionInstrument::new(name);
+                AuditionTarget::Timbre(ref preset) => {
+                    if self.audition_instrument.as_ref().is_none_or(|instrument| instrument.preset != *preset) {
+                        self.audition_instrument = Some(AuditionInstrument { preset: preset.clone() });
                         self.audio.set_instruments(
                             self.synth_setup.synth(stage.exhibit(), self.audition_instrument.as_ref()),
                         );

@@ -1,6 +1,9 @@
-//! Instruments, tried through the live loudspeaker: the work's own and all shipped timbres.
+//! Instruments, tried through the live loudspeaker: the work's own, its own timbres, and all shipped ones.
+
+use std::sync::Arc;
 
 use egui::{Slider, Ui};
+use soffio_sound::Preset;
 
 use super::style::BAD;
 use crate::pages::ui_strings::TextId;
@@ -14,8 +17,8 @@ pub struct Sound {
     /// m/s.
     speed: f64,
     pan: f32,
-    /// The shipped timbres that can be tried, looked up once.
-    timbres: Vec<&'static str>,
+    /// The shipped timbres, read once.
+    timbres: Vec<Arc<Preset>>,
 }
 
 impl Default for Sound {
@@ -48,8 +51,8 @@ impl Sound {
             ui.horizontal_wrapped(|ui| {
                 for sound in &frame.exhibit.sounds {
                     let timbre = &frame.exhibit.instruments[sound.instrument].timbre;
-                    // The wind plays the others.
-                    if self.timbres.contains(&timbre.as_str()) {
+                    // Wind, slides and motion play the others.
+                    if sound.is_struck {
                         play(ui, &format!("{} ({timbre})", sound.name), AuditionTarget::Exhibit(sound.instrument));
                     }
                 }
@@ -57,8 +60,8 @@ impl Sound {
             ui.separator();
             ui.label(texts.get(TextId::StaffAllTimbres));
             ui.horizontal_wrapped(|ui| {
-                for name in &self.timbres {
-                    play(ui, name, AuditionTarget::Timbre(name));
+                for preset in frame.exhibit.own_timbres.iter().chain(&self.timbres) {
+                    play(ui, &preset.name, AuditionTarget::Timbre(preset.clone()));
                 }
             });
         });

@@ -9,7 +9,7 @@ use super::style::{ROW, row};
 use crate::pages::ui_strings::{TextId, UiStrings};
 use crate::staff::action::StaffAction;
 use crate::staff::panel_input::PanelInput;
-use crate::step::instruments::{Audition, AuditionTarget};
+use crate::step::instruments::{Audition, AuditionTarget, shipped};
 
 /// Timbre of the loudspeaker test, and the speed of its hit, m/s.
 const CALL: (&str, f64) = ("wood", 1.0);
@@ -96,10 +96,12 @@ impl Test {
         ui.add_enabled_ui(may, |ui| {
             ui.horizontal(|ui| {
                 for (name, pan) in [(TextId::StaffLeft, -1.0), (TextId::StaffBoth, 0.0), (TextId::StaffRight, 1.0)] {
-                    if ui.button(texts.get(name)).clicked() {
-                        let (timbre, speed) = CALL;
+                    let (timbre, speed) = CALL;
+                    if ui.button(texts.get(name)).clicked()
+                        && let Some(preset) = shipped(timbre)
+                    {
                         actions.push(StaffAction::PlaySound(Audition {
-                            target: AuditionTarget::Timbre(timbre),
+                            target: AuditionTarget::Timbre(preset),
                             speed,
                             pan,
                         }));
