@@ -86,6 +86,11 @@ impl Instrument {
         self.player == Player::Hit
     }
 
+    /// Whether it is noise of the wind: wind plays it, and nothing of it rings.
+    pub fn is_hiss(&self) -> bool {
+        self.player == Player::Wind && self.modal.is_none()
+    }
+
     /// Whether anything of it sounds when the body is struck, whatever else plays it.
     pub fn is_struck(&self) -> bool {
         self.is_hit() || self.rings

@@ -22,7 +22,7 @@ use super::repetition::RepetitionAttenuation;
 use super::reverb::ReverbSpec;
 use super::shared::Shared;
 use super::sounding_body::{SoundingBody, SynthClock};
-use super::timbre::{Inputs, MAX_NODES, Player, Preset, TimbreError};
+use super::timbre::{Inputs, MAX_NODES, Preset, TimbreError};
 use super::voice::{Voice, VoiceState};
 use super::{BodyMotion, Damp, InstrumentSpec, SoundCommand, Strike};
 use soffio_math::noise::hash_words;
@@ -464,7 +464,7 @@ impl Synth {
         let voices = self.voices[..self.used_voices].iter_mut().chain(&mut self.sustained);
         for voice in voices.filter(|voice| voice.state != VoiceState::Free) {
             let instrument = &self.instruments[voice.instrument];
-            let is_wind = instrument.player == Player::Wind && !self.dry;
+            let is_wind = instrument.is_hiss() && !self.dry;
             blows |= is_wind;
             let [left, right] = if is_wind { [&mut *wind_left, &mut *wind_right] } else { [&mut *left, &mut *right] };
             let body = self.body_index[voice.instrument].filter(|_| instrument.graph.drives());

@@ -22,7 +22,7 @@ pub(super) enum OperatorKind {
     White,
     Pink(Pink),
     Slow(Slow),
-    Tone(Tone),
+    Tone(Box<Tone>),
     Formula(Expression),
     Texture {
         line: Arc<Pyramid>,
@@ -64,8 +64,8 @@ impl OperatorKind {
                 NoiseKind::Pink => Self::Pink(Pink::new()),
                 NoiseKind::Perlin | NoiseKind::Multifractal => Self::Slow(Slow::new(noise)),
             },
-            Node::Oscillator(oscillator) => Self::Tone(Tone::oscillator(oscillator)),
-            Node::Fm(fm) => Self::Tone(Tone::fm(fm)),
+            Node::Oscillator(oscillator) => Self::Tone(Box::new(Tone::oscillator(oscillator))),
+            Node::Fm(fm) => Self::Tone(Box::new(Tone::fm(fm))),
             Node::Function(function) => Self::Formula(function.compile()?),
             Node::Texture(texture) => {
                 let line = match (texture.kind, surface) {
