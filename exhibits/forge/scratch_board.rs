@@ -1,8 +1,10 @@
-//! A board of beech in a frame, and a quill with its nib on it.
+//! A board of pine in a frame, with the rings of its years drawn on it, and a quill with its nib on it.
 
+use image::{Rgb, RgbImage};
+use soffio_math::noise::perlin3;
 use soffio_math::{DQuat, DVec2, DVec3, PI, cos, rotation, sin};
 
-use soffio_authoring::glb::Scene;
+use soffio_authoring::glb::{Finish, Picture, Scene};
 use soffio_authoring::outline::{Knot, closed_spline};
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{extrude, revolve};
@@ -18,22 +20,48 @@ const NIB: f64 = 1.5 * MM;
 const LEAN: f64 = 0.42;
 /// Length of the quill's shaft, m.
 const SHAFT: f64 = 150.0 * MM;
+/// Pixels of the board's picture for each metre: 0.4 mm a pixel, a third of the nib.
+const PIXELS: f64 = 2500.0;
+/// Distance of two years' rings, m: a fast-grown softwood, so that each ring is heard by itself under a slow nib.
+const YEAR: f64 = 6.0 * MM;
+/// Distance of the tree's axis below the board's lower edge, m.
+const PITH: f64 = 260.0 * MM;
+/// Seed of the grain.
+const GRAIN: u64 = 7;
+
+/// The face of the board: rings about an axis below its lower edge, a little bent along the trunk. Each year begins light and ends
+/// dark, and fine fibres run along it.
+fn rings() -> Picture {
+    let [length, width, _] = SIZE;
+    let [columns, rows] = [length, width].map(|side| (side * PIXELS) as u32);
+    let pixels = RgbImage::from_fn(columns, rows, |i, j| {
+        let x = (f64::from(i) + 0.5) / PIXELS - 0.5 * length;
+        let y = 0.5 * width - (f64::from(j) + 0.5) / PIXELS;
+        let bend = 9.0 * MM * perlin3(DVec3::new(x / 0.19, y / 0.11, 0.5), GRAIN);
+        let (above, along) = (y + 0.5 * width + PITH + bend, 0.35 * x);
+        let from_axis = (above * above + along * along).sqrt();
+        let year = from_axis / YEAR;
+        let part = year - year.floor();
+        let late = part * part * part;
+        let fibre = perlin3(DVec3::new(x / (14.0 * MM), y / (0.9 * MM), 2.5), GRAIN + 1);
+        let light = (1.0 - 0.52 * late + 0.05 * fibre).clamp(0.0, 1.0);
+        Rgb([1.0, 0.80 + 0.2 * light * light, 0.62 + 0.38 * light * light]
+            .map(|tone| (255.0 * light * tone).round() as u8))
+    });
+    Picture { pixels, size: [length, width] }
+}
 
 /// The model.
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
+    let face = scene.finish(&Finish { name: "Planed pine", color: [0.78, 0.56, 0.33], metallic: 0.0, roughness: 0.6 });
+    scene.picture(face, &rings()).expect("a picture in memory");
     let flat = rotation(0.5 * PI * DVec3::X);
     let (along, none) = (DQuat::IDENTITY, DVec3::ZERO);
     let [length, width, thickness] = SIZE;
-    let mut parts = vec![part(
-        "BoardPlank",
-        slab(length, width, thickness),
-        -0.5 * thickness * DVec3::Y,
-        flat,
-        WOOD,
-        finishes.wood,
-    )];
+    let mut parts =
+        vec![part("BoardPlank", slab(length, width, thickness), -0.5 * thickness * DVec3::Y, flat, WOOD, face)];
     let (rim, high) = (10.0 * MM, 10.0 * MM);
     for (name, size, x, z) in [
         ("RimFront", [length + 2.0 * rim, rim], 0.0, 0.5 * (width + rim)),

@@ -4,6 +4,8 @@
 //! floats. Layout as in the glTF 2.0 specification, section 4.4: a 12-byte header, the JSON chunk padded with spaces,
 //! the binary chunk with zeros.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Value, json};
 
 use super::solid::Solid;
@@ -43,9 +45,21 @@ pub struct Glass {
     pub attenuation_distance: f64,
 }
 
+/// A picture on a finish, laid flat over the part's own x and y.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// RGB, row by row from the top (the largest y).
+    pub pixels: image::RgbImage,
+    /// Length along x and y that it covers, centred on the part's origin, m.
+    pub size: [f64; 2],
+}
+
 /// A glTF scene under construction.
 #[derive(Debug, Default)]
 pub struct Scene {
+    images: Vec<Value>,
+    /// Sizes of the pictures of finishes.
+    pictures: BTreeMap<usize, [f64; 2]>,
     nodes: Vec<Value>,
     children: Vec<Vec<usize>>,
     roots: Vec<usize>,
@@ -110,6 +124,25 @@ impl Scene {
         });
     }
 
+    /// Lays a picture on a finish, as PNG inside the file; its colour multiplies the picture's.
+    ///
+    /// # Errors
+    /// The picture cannot be encoded.
+    pub fn picture(&mut self, finish: usize, picture: &Picture) -> Result<(), image::ImageError> {
+        let mut png = std::io::Cursor::new(Vec::new());
+        picture.pixels.write_to(&mut png, image::ImageFormat::Png)?;
+        let mut bytes = png.into_inner();
+        let length = bytes.len();
+        // The next view must begin at a multiple of four.
+        bytes.resize(length.next_multiple_of(4), 0);
+        self.views.push(json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": length }));
+        self.binary.extend_from_slice(&bytes);
+        self.images.push(json!({ "bufferView": self.views.len() - 1, "mimeType": "image/png" }));
+        self.materials[finish]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": self.images.len() - 1 });
+        self.pictures.insert(finish, picture.size);
+        Ok(())
+    }
+
     /// Gives `node` the mesh of `solid` with a finish.
     pub fn mesh(&mut self, node: usize, solid: &Solid, finish: usize) {
         let single = |v: &DVec3| v.as_vec3().to_array();
@@ -127,11 +160,18 @@ impl Scene {
         let normal = self.accessor(bytemuck::cast_slice(&normals), FLOAT, "VEC3", normals.len(), ARRAY_BUFFER);
         let index =
             self.accessor(bytemuck::cast_slice(&indices), UNSIGNED_INT, "SCALAR", indices.len(), ELEMENT_ARRAY_BUFFER);
+        let mut attributes = json!({ "POSITION": position, "NORMAL": normal });
+        if let Some([length, width]) = self.pictures.get(&finish) {
+            let laid = |p: &DVec3| [(p.x / length + 0.5) as f32, (0.5 - p.y / width) as f32];
+            let places: Vec<[f32; 2]> = solid.positions.iter().map(laid).collect();
+            let place = self.accessor(bytemuck::cast_slice(&places), FLOAT, "VEC2", places.len(), ARRAY_BUFFER);
+            attributes["TEXCOORD_0"] = json!(place);
+        }
         self.nodes[node]["mesh"] = json!(self.meshes.len());
         self.meshes.push(json!({
             "name": self.nodes[node]["name"],
             "primitives": [{
-                "attributes": { "POSITION": position, "NORMAL": normal },
+                "attributes": attributes,
                 "indices": index,
                 "material": finish,
             }],
@@ -184,6 +224,11 @@ impl Scene {
             "bufferViews": self.views,
             "buffers": [{ "byteLength": self.binary.len() }],
         });
+        if !self.images.is_empty() {
+            let textures: Vec<Value> = (0..self.images.len()).map(|source| json!({ "source": source })).collect();
+            document["textures"] = json!(textures);
+            document["images"] = json!(self.images);
+        }
         let mut used: Vec<&String> =
             self.materials.iter().filter_map(|m| m["extensions"].as_object()).flat_map(|e| e.keys()).collect();
         used.sort_unstable();

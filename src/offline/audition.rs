@@ -2,7 +2,7 @@
 
 use soffio_simulation::SAMPLE_RATE;
 use soffio_sound::timbre::Specimen;
-use soffio_sound::{Preset, SoundCommand, SurfaceLine, Synth, TimbreError};
+use soffio_sound::{Preset, SoundCommand, SoundSurface, SurfaceLine, Synth, TimbreError};
 
 /// Parameters of a test sound, in addition to those of the specimen.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +35,7 @@ impl TestSound {
     /// The preset does not fit the specimen's body.
     pub fn render(&self, preset: &Preset, specimen: &Specimen, seconds: f64) -> Result<Vec<f32>, AuditionError> {
         let mut spec = specimen.spec(&preset.name);
-        spec.surface = self.surface.clone();
+        spec.surface = self.surface.clone().map(SoundSurface::Line);
         let mut synth = Synth::with_preset(SAMPLE_RATE, preset, &spec, self.seed)?;
         synth.set_dry(true);
         synth.command(self.command(preset, specimen, &synth));

@@ -131,7 +131,8 @@ fn wire_noise(wire: usize, air: &Air, breath: &AimedBreath, bodies: &[RigidBody]
         let wind = blown + air.wind.directed_velocity(None, middle) + air.wind.undirected_velocity(middle);
         let velocity = wind - moves(middle);
         let across = velocity - velocity.dot(along) * along;
-        let power = way.length() * across.length_squared().powi(3);
+        let square = across.length_squared();
+        let power = way.length() * square * square * square;
         noise = noise.plus(AirNoise { power, moment: power * middle, flow: power * across });
         length += way.length();
     }

@@ -26,7 +26,7 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::LimitKind;
 use soffio_multibody::dynamics::{ContactReport, Impact, ImpactKind};
-use soffio_sound::{Damp, Slide, SoundCommand, Strike};
+use soffio_sound::{Damp, Slide, SoundCommand, SoundSurface, Strike};
 
 /// Two thresholds of a state with hysteresis, m/s.
 struct Hysteresis {
@@ -356,7 +356,8 @@ impl ContactSound {
         let pairs = &self.pairs;
         self.active.retain(|&pair| pairs[pair].active);
         for (sound, state) in scene.exhibit.sounds.iter().zip(&mut self.sounds) {
-            state.send_slide(sample, sound.instrument as u16, scene.listener, out);
+            let drawn = matches!(scene.exhibit.instruments[sound.instrument].surface, Some(SoundSurface::Relief(_)));
+            state.send_slide(sample, sound.instrument as u16, drawn, scene.listener, out);
             state.send_damp(sample, sound.instrument as u16, out);
         }
     }
@@ -371,8 +372,15 @@ impl ContactSound {
 }
 
 impl SoundState {
-    /// Sends an audible change of the sliding contact.
-    fn send_slide(&mut self, sample: u64, instrument: u16, listener: &AudioListener, out: &mut Vec<SoundCommand>) {
+    /// Sends an audible change of the sliding contact; on a surface that something is `drawn` on, each place is heard.
+    fn send_slide(
+        &mut self,
+        sample: u64,
+        instrument: u16,
+        drawn: bool,
+        listener: &AudioListener,
+        out: &mut Vec<SoundCommand>,
+    ) {
         let last = self.slide;
         if self.sliding.force == 0.0 {
             if last.force > 0.0 {
@@ -393,7 +401,8 @@ impl SoundState {
         };
         let level = |a: f32, b: f32| differs(f64::from(a), f64::from(b), SLIDE_CHANGE.level);
         let position = |a: f32, b: f32| (a - b).abs() > SLIDE_CHANGE.position;
-        if level(slide.speed, last.speed)
+        if drawn
+            || level(slide.speed, last.speed)
             || level(slide.force, last.force)
             || level(slide.distance, last.distance)
             || position(slide.pan, last.pan)

@@ -10,6 +10,8 @@ use soffio_math::{PI, exp};
 const WIND_GLIDE: f64 = 0.05;
 /// Time constant of a smoothed slide or motion, s: one simulation step.
 const SLIDE_GLIDE: f64 = 0.004;
+/// Longest time that a contact takes from one command's place to the next's, s: two simulation steps, and some jitter.
+const LONGEST_WAY: f64 = 0.01;
 /// Force below which a fading slide ends, N: 100 dB below 1 N, inaudible.
 const LEAST_FORCE: f64 = 1e-5;
 /// Speed below which a fading wind ends, m/s: inaudible, as sound grows with a power of the speed.
@@ -21,6 +23,8 @@ pub(super) const MIN_DISTANCE: f32 = 0.1;
 pub(super) struct SustainedControls {
     /// One-pole coefficients of wind, and of slides and motion, per grid point.
     shares: [f64; 2],
+    /// Longest straight way of a contact, samples.
+    longest_way: u64,
     /// One of each for each instrument.
     winds: Vec<WindState>,
     slides: Vec<SlideState>,
@@ -60,7 +64,31 @@ struct SlideState {
     target: Slide,
     speed: f64,
     force: f64,
-    position: [f64; 2],
+    way: Way,
+}
+
+/// Way of a contact from one command to the next: a straight line that takes as long as the commands are apart, so that what is
+/// drawn on a surface passes evenly.
+#[derive(Clone, Copy, Default)]
+struct Way {
+    from: [f64; 2],
+    to: [f64; 2],
+    /// Sample at which it begins.
+    began: u64,
+    /// Samples that it takes.
+    takes: u64,
+}
+
+impl Way {
+    fn at(&self, now: u64) -> [f64; 2] {
+        let share = (now.saturating_sub(self.began) as f64 / self.takes.max(1) as f64).min(1.0);
+        std::array::from_fn(|k| self.from[k] + share * (self.to[k] - self.from[k]))
+    }
+
+    fn goes_to(&mut self, place: [f64; 2], now: u64, longest: u64) {
+        let takes = now.saturating_sub(self.began).clamp(1, longest);
+        *self = Self { from: self.at(now), to: place, began: now, takes };
+    }
 }
 
 /// Commanded and smoothed motion of one instrument's body.
@@ -79,18 +107,20 @@ impl SustainedControls {
     pub fn new(instruments: usize, sample_rate: f64) -> Self {
         Self {
             shares: [WIND_GLIDE, SLIDE_GLIDE].map(|glide| 1.0 - exp(-(CONTROL_PERIOD as f64) / (glide * sample_rate))),
+            longest_way: (LONGEST_WAY * sample_rate) as u64,
             winds: vec![WindState { calm_before: true, ..WindState::default() }; instruments],
             slides: vec![SlideState::default(); instruments],
             motions: vec![MotionState { absent_before: true, ..MotionState::default() }; instruments],
         }
     }
 
-    /// Sets the target of a command. False if there is no such instrument.
-    pub fn command(&mut self, command: &SoundCommand) -> bool {
+    /// Sets the target of a command at this sample. False if there is no such instrument.
+    pub fn command(&mut self, command: &SoundCommand, now: u64) -> bool {
+        let longest = self.longest_way;
         match *command {
             SoundCommand::Slide(slide) => {
                 let slider = self.slides.get_mut(usize::from(slide.instrument));
-                slider.map(|slider| slider.target = slide).is_some()
+                slider.map(|slider| slider.follow(slide, now, longest)).is_some()
             }
             SoundCommand::Wind(wind) => {
                 self.winds.get_mut(usize::from(wind.instrument)).map(|state| state.target = wind).is_some()
@@ -125,7 +155,7 @@ impl SustainedControls {
     }
 
     /// Control signals of an instrument with this player at this grid point. To be called once a grid point.
-    pub fn values(&mut self, instrument: usize, player: Player) -> ControlValues {
+    pub fn values(&mut self, instrument: usize, player: Player, now: u64) -> ControlValues {
         let (wind, mover) = (&self.winds[instrument], &self.motions[instrument]);
         let mut air = Inputs {
             wind_speed: wind.speed,
@@ -145,7 +175,7 @@ impl SustainedControls {
                     inputs: Inputs {
                         slip_speed: slider.speed,
                         normal_force: slider.force,
-                        position: slider.position,
+                        position: slider.way.at(now),
                         ..air
                     },
                     pan: f64::from(slide.pan),
@@ -223,15 +253,21 @@ impl WindState {
 }
 
 impl SlideState {
+    /// Takes the target of a command.
+    fn follow(&mut self, slide: Slide, now: u64, longest: u64) {
+        let place = slide.position.map(|p| f64::from(p).clamp(-1.0, 1.0));
+        if self.target.force == 0.0 && self.force == 0.0 {
+            // A new slide starts at its position.
+            self.way = Way { from: place, to: place, began: now, takes: 1 };
+        } else {
+            self.way.goes_to(place, now, longest);
+        }
+        self.target = slide;
+    }
+
     /// One step of a one-pole glide towards the commanded slide.
     fn glide(&mut self, share: f64) {
         let target = f64::from(self.target.force).max(0.0);
-        let position = self.target.position.map(|p| f64::from(p).clamp(-1.0, 1.0));
-        if self.force == 0.0 {
-            // A new slide starts at its position.
-            self.position = position;
-        }
-        (0..2).for_each(|k| self.position[k] += (position[k] - self.position[k]) * share);
         self.speed += (f64::from(self.target.speed).abs() - self.speed) * share;
         self.force += (target - self.force) * share;
         if target == 0.0 && self.force < LEAST_FORCE {

@@ -267,6 +267,24 @@ pub struct SurfaceLine {
     pub spacing: f64,
 }
 
+/// What is drawn on a body, over both of its largest half extents: read where a contact is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceRelief {
+    /// Brightness or height, row by row; the first row and the first value of each lie at −1. Only differences matter.
+    pub values: Vec<f32>,
+    /// Values of a row.
+    pub width: usize,
+}
+
+/// The surface of a body for contacts that slide over it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SoundSurface {
+    /// The same line over and over, at the speed of the slide, wherever the contact is.
+    Line(SurfaceLine),
+    /// What is drawn at the place of the contact.
+    Relief(Arc<SurfaceRelief>),
+}
+
 /// A sounding body of an exhibit, ready to be compiled by the synth.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InstrumentSpec {
@@ -278,8 +296,8 @@ pub struct InstrumentSpec {
     pub body: SoundBody,
     /// Its material.
     pub material: SoundMaterial,
-    /// A line of the picture on its surface, for timbres that are scraped.
-    pub surface: Option<SurfaceLine>,
+    /// Its surface, for timbres that are scraped.
+    pub surface: Option<SoundSurface>,
     /// Linear gain.
     pub gain: f64,
     /// Most simultaneous voices of impacts on this body; its modes have no bound.

@@ -292,7 +292,7 @@ impl Synth {
             SoundCommand::Strike(strike) => self.strike(&strike),
             SoundCommand::Damp(damp) => self.damp(&damp),
             SoundCommand::Slide(_) | SoundCommand::Wind(_) | SoundCommand::Motion(_) => {
-                if !self.controls.command(&command) {
+                if !self.controls.command(&command, self.position) {
                     self.faults += 1;
                 }
             }
@@ -409,7 +409,7 @@ impl Synth {
         for voice in &mut self.sustained {
             let instrument = &self.instruments[voice.instrument];
             let ControlValues { inputs, pan, distance, still_before, still } =
-                self.controls.values(voice.instrument, instrument.player);
+                self.controls.values(voice.instrument, instrument.player, self.position);
             let gains = equal_power(pan).map(|side| side * instrument.gain as f32 / distance);
             let drives = self.body_index[voice.instrument].filter(|_| instrument.graph.drives());
             match (voice.state, still) {

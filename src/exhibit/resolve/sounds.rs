@@ -12,7 +12,7 @@ use soffio_math::db_to_amplitude;
 use soffio_multibody::articulation::{Constraint, Spring};
 use soffio_multibody::collision::Collider;
 use soffio_sound::timbre::{self, Input};
-use soffio_sound::{InstrumentSpec, Preset, SoundBody, SoundMaterial};
+use soffio_sound::{InstrumentSpec, Preset, SoundBody, SoundMaterial, SoundSurface};
 use soffio_wind::Surface;
 
 /// Default number of simultaneous impact sounds of a body.
@@ -106,6 +106,7 @@ impl Context<'_> {
         self.record_size_origins(&size, at, &used_for);
         self.record_origin(&used_for, "timbre", given.timbre.clone(), &format!("{at}/timbre"), "");
         self.record_origin(&used_for, "gain", format!("{} dB", given.gain.0), &format!("{at}/gain"), "default");
+        let frame = ImpactFrame { longest: extents.axes.x_axis, middle: extents.axes.y_axis, center: extents.center };
         let rings = timbre.as_ref().is_some_and(|timbre| timbre.preset.rings());
         let spec = InstrumentSpec {
             timbre: timbre.as_ref().map_or_else(|| given.timbre.clone(), |timbre| timbre.preset.name.clone()),
@@ -113,7 +114,10 @@ impl Context<'_> {
             body: size,
             material: sound_material,
             // Only sliding contacts read it.
-            surface: (given.on == Trigger::Slide).then(|| self.surface_line(node)).flatten(),
+            surface: (given.on == Trigger::Slide)
+                .then(|| self.surface_relief(node, &frame, size.half_extents))
+                .flatten()
+                .map(|relief| SoundSurface::Relief(Arc::new(relief))),
             gain: db_to_amplitude(given.gain.0 + self.sidecar.scene.level.0),
             max_voices: given.max_voices.unwrap_or(DEFAULT_VOICES),
         };
@@ -123,7 +127,6 @@ impl Context<'_> {
             let problem = self.own_timbres.problem(&spec.timbre, &error);
             self.problems.push(problem.label(format!("{used_for} cannot play it")));
         }
-        let frame = ImpactFrame { longest: extents.axes.x_axis, middle: extents.axes.y_axis, center: extents.center };
         let on = trigger(given.on);
         let is_struck = on == SoundTrigger::Impact || (on == SoundTrigger::Motion && rings);
         let (name, caption) = (given.name.clone(), given.caption.clone());

@@ -11,6 +11,7 @@ mod delay;
 mod filter;
 mod noises;
 mod operator;
+mod relief;
 mod state;
 mod surface;
 mod tones;

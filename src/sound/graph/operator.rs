@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use super::block::{AudioBlock, CONTROL_PERIOD};
 use super::noises::{Pink, Slow};
-use super::state::OperatorState;
+use super::relief::Relief;
+use super::state::{Glide, OperatorState};
 use super::surface::Pyramid;
 use super::tones::{Tone, begin_formula, control_formula, render_formula};
-use crate::SurfaceLine;
+use crate::SoundSurface;
 use crate::shared::Shared;
 use crate::timbre::{Expression, FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
 use soffio_math::exp;
@@ -28,6 +29,7 @@ pub(super) enum OperatorKind {
         line: Arc<Pyramid>,
         speed: Number,
     },
+    Relief(Relief),
     Filter {
         kind: FilterKind,
         cutoff: Number,
@@ -56,7 +58,7 @@ impl OperatorKind {
     ///
     /// # Errors
     /// What the node lacks.
-    pub fn compile(node: &Node, surface: Option<&SurfaceLine>, shared: &mut Shared) -> Result<Self, String> {
+    pub fn compile(node: &Node, surface: Option<&SoundSurface>, shared: &mut Shared) -> Result<Self, String> {
         Ok(match node {
             Node::Modal(_) => Self::Modal,
             Node::Noise(noise) => match noise.kind {
@@ -70,7 +72,10 @@ impl OperatorKind {
             Node::Texture(texture) => {
                 let line = match (texture.kind, surface) {
                     (TextureKind::Image, None) if texture.optional => return Ok(Self::Smooth),
-                    (TextureKind::Image, Some(surface)) => Arc::new(Pyramid::of_picture(surface)?),
+                    (TextureKind::Image, Some(SoundSurface::Line(line))) => Arc::new(Pyramid::of_picture(line)?),
+                    (TextureKind::Image, Some(SoundSurface::Relief(picture))) => {
+                        return Ok(Self::Relief(Relief::new(picture)?));
+                    }
                     (TextureKind::Image, None) => {
                         return Err("kind \"image\" needs a body whose surface has a picture; this one has none".into());
                     }
@@ -103,6 +108,11 @@ impl OperatorKind {
             }
             Self::Slow(slow) => slow.begin(state, seed, time, sample_rate),
             Self::Tone(tone) => tone.begin(state, inputs, sample_rate),
+            Self::Relief(_) => {
+                for (glide, place) in state.glides.iter_mut().zip(inputs.position) {
+                    *glide = Glide::at(place);
+                }
+            }
             Self::Formula(formula) => {
                 begin_formula(formula, state, inputs);
                 state.step = 1.0 / sample_rate;
@@ -127,6 +137,9 @@ impl OperatorKind {
             Self::Slow(slow) => slow.control(state, seed, time, sample_rate),
             Self::Tone(tone) => tone.control(state, inputs, sample_rate),
             Self::Formula(formula) => control_formula(formula, state, inputs),
+            Self::Relief(_) => {
+                state.glides.iter_mut().zip(inputs.position).for_each(|(glide, place)| glide.towards(place));
+            }
             Self::Texture { line, speed } => {
                 let target = line.step(speed.at(inputs), sample_rate);
                 state.change = (target - state.value) / CONTROL_PERIOD as f64;
@@ -152,6 +165,10 @@ impl OperatorKind {
             (Self::Pink(pink), _) => pink.render(state, out),
             (Self::Slow(slow), _) => slow.render(state, out),
             (Self::Tone(tone), modulation) => tone.render(state, modulation, out),
+            (Self::Relief(relief), _) => {
+                let [x, y, ..] = &mut state.glides;
+                out.iter_mut().for_each(|sample| *sample = relief.at([x.next(), y.next()]));
+            }
             (Self::Formula(formula), _) => render_formula(formula, state, inputs, blocks, state.step, out),
             (Self::Texture { line, .. }, _) => line.render(state, out),
             (Self::Value, _) => out.fill(1.0),

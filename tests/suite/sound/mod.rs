@@ -2,6 +2,7 @@
 
 mod contact;
 mod own_timbres;
+mod scratching;
 
 use soffio_fourier::real_forward;
 use soffio_math::PI;

@@ -1,7 +1,7 @@
 //! Scraping: the line of a surface as a sound.
 
 use soffio_math::{PI, amplitude_to_db, sin};
-use soffio_sound::{Preset, Slide, SoundCommand, SurfaceLine, Synth};
+use soffio_sound::{Preset, Slide, SoundCommand, SoundSurface, SurfaceLine, Synth};
 
 use super::winds::spectrum;
 use super::{RATE, render, spec};
@@ -17,6 +17,7 @@ fn needle(lines: &str) -> Preset {
 
 /// Slides at a steady speed, after it settled.
 fn slide(preset: &Preset, surface: Option<SurfaceLine>, speed: f32, force: f32, seconds: f64) -> Vec<f64> {
+    let surface = surface.map(SoundSurface::Line);
     let spec = soffio_sound::InstrumentSpec { surface, ..spec("x") };
     let mut synth = Synth::with_preset(RATE, preset, &spec, 1).expect("compiles");
     synth.set_dry(true);
