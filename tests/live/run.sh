@@ -445,6 +445,47 @@ speaker_replugged() {
 }
 spoken() { [ "$(grep -c "$2" "$workdir/$1.err")" -ge "$3" ]; }
 
+# ---- a curator's own timbre is heard through the loudspeaker, and again as soon as it is saved -----------------------
+# The vent of the exhibit always turns its pinwheel, and the timbre's tone follows the spin only in level.
+own_timbre() {
+    local exhibit=$workdir/own-timbre before after
+    cp -r "$root/exhibits/windy-corner" "$exhibit"
+    mkdir -p "$exhibit/timbres"
+    own_tone 1000 >"$exhibit/timbres/tone.toml"
+    sed -i 's/^timbre = "ratchet"/timbre = "tone"/; s/^timbre = "wind-room"/timbre = "tone"/; s/^on = "wind"/on = "motion"/' "$exhibit/exhibit.toml"
+    configured "$workdir/own-timbre.toml" '[exhibits]\nshow = ["windy-corner"]\n[audio]\noutput = "speakers"\n'
+    start_kiosk own-timbre --no-attract --config "$workdir/own-timbre.toml" --for 40
+    within 30 grep -q 'supervisor: loudspeaker: ' "$workdir/own-timbre.err"
+    before=$(tones)
+    own_tone 2000 >"$exhibit/timbres/tone.toml"
+    within 15 grep -q 'shows windy-corner\|reloaded' "$workdir/own-timbre.err" || sleep 3
+    after=$(tones)
+    own_tone 2000 | sed 's/"fm"/"mf"/' >"$exhibit/timbres/tone.toml"
+    within 15 grep -q 'did you mean "fm"' "$workdir/own-timbre.err" || true
+    bar "own timbre: broken" "$(grep -c 'did you mean "fm"' "$workdir/own-timbre.err") >= 1" \
+        "$(grep -o 'timbres/tone.toml:[0-9]*' "$workdir/own-timbre.err" | head -1) is reported"
+    leave_kiosk own-timbre
+    # A band of 50 Hz holds the whole tone, and a fiftieth of what else sounds there.
+    bar "own timbre: heard" "${before% *} > ${before#* } + 20" "${before% *} dBFS at 1000 Hz, ${before#* } at 2000"
+    bar "own timbre: saved" "${after#* } > ${after% *} + 20" "${after% *} dBFS at 1000 Hz, ${after#* } at 2000"
+}
+own_tone() { # own_tone HERTZ
+    printf 'timbre = 1\nname = "tone"\ndescription = "A tone for the live tests"\n[node.tone]\ntype = "fm"\ncarrier = %s\nratio = 0.01\nindex = 0.2\n' "$1"
+    printf '[node.out]\ntype = "function"\nin = ["tone"]\nof = "0.1 * tone * clamp(body_spin, 0, 1)"\n'
+}
+tones() { # levels at 1000 and 2000 Hz, dBFS
+    local recorder hertz
+    start tones parec -d speakers.monitor --rate=48000 --channels=2 --format=float32le --latency-msec=20 --raw
+    recorder=$last
+    sleep 4
+    kill "$recorder"
+    wait "$recorder" 2>/dev/null || true
+    for hertz in 1000 2000; do
+        sox -t raw -r 48000 -c 2 -e float -b 32 "$workdir/tones.out" -t raw -e float -b 32 "$workdir/band.out" sinc "$((hertz - 25))-$((hertz + 25))"
+        level "$workdir/band.out" 1.5 2
+    done | tr '\n' ' ' | sed 's/ $//'
+}
+
 # ---- sound under load -----------------------------------------------------------------------------------------------
 # One busy process more than there are processors. The callback must need far less time than its block lasts, so that a kiosk with
 # real-time priority has no gap. This test has no such priority, so a block may still be late.

@@ -3,6 +3,7 @@
 mod contact;
 mod own_timbres;
 mod scratching;
+mod visit;
 
 use soffio_fourier::real_forward;
 use soffio_math::PI;
