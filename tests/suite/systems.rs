@@ -121,7 +121,7 @@ const SYSTEMS: &[System] = &[
     }),
     // 4: wind
     ("breath as a jet", |e| e.breath.law == SpreadLaw::Jet && !e.wind_surfaces.is_empty()),
-    ("breath as a cone", |e| e.breath.law == SpreadLaw::Cone && !e.wind_surfaces.is_empty()),
+    ("breath as a cone", |e| matches!(e.breath.law, SpreadLaw::Cone { .. }) && !e.wind_surfaces.is_empty()),
     ("fan", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Fan { .. }))),
     ("draught or gust", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Draught { .. }))),
     ("the room's own air", |e| e.winds.iter().any(|w| matches!(w.kind, WindKind::Turbulence { .. }))),
