@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, TouchPermission};
-use super::bodies::{Body, Material, MaterialPair, Wire};
+use super::bodies::{Body, Cord, Material, MaterialPair, Wire};
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
 use super::model::Model;
@@ -20,7 +20,7 @@ use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 ///
-/// It has 37 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
+/// It has 38 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
 /// has no state.
 #[derive(Clone, Debug)]
 pub struct Exhibit {
@@ -68,6 +68,8 @@ pub struct Exhibit {
     pub stabilization_time: f64,
     /// Wires and cords: drawn as capsules, feel the wind, have mass.
     pub wires: Vec<Wire>,
+    /// Cords that are drawn from body to body.
+    pub cords: Vec<Cord>,
     /// Collision shapes.
     pub colliders: Vec<Collider>,
     /// Pairs of bodies that never collide, sorted.

@@ -52,7 +52,7 @@ mod source;
 pub mod view;
 
 pub use behavior::{BreathTuning, IdleDampingSpec, ImpactFrame, Motion, SoundBinding, SoundTrigger, TouchPermission};
-pub use bodies::{Body, Material, MaterialPair, Wire};
+pub use bodies::{Body, Cord, Material, MaterialPair, Wire};
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};
 pub use model::Model;
