@@ -8,7 +8,7 @@ use super::clock;
 use super::diagnostic::{Diagnostic, Report};
 use super::model::Model;
 use super::paths::SIDECAR;
-use super::presentation::{Attract, Credit, Labels};
+use super::presentation::{Attract, Credit, Labels, TAKE};
 use super::shape_tracks;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
@@ -108,6 +108,11 @@ impl Exhibit {
         let file = self.folder.join(SIDECAR);
         let text = std::fs::read_to_string(&file).unwrap_or_default();
         Report::in_file(&file.display().to_string(), text.into(), self.warnings.clone())
+    }
+
+    /// The invitation to the hand in a language, such as "Take its hand": the label's `take`, where touch is permitted.
+    pub fn hand_invitation(&self, language: &str) -> Option<&str> {
+        self.labels.get(language).filter(|_| self.touch.permitted)?.text(TAKE)
     }
 
     /// Contact properties of two colliders. Restitution and sliding friction are those of the material pair, or the
