@@ -49,6 +49,11 @@ pub fn explain(exhibit: &Exhibit) -> String {
     for wire in &exhibit.wires {
         wire_line(&mut out, exhibit, wire);
     }
+    for cord in &exhibit.cords {
+        let length = cord.length(|body| exhibit.bodies[body].pose);
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "\ncord {}\n  {:.1} mm long, ⌀ {:.2} mm", cord.name, 1e3 * length, 2e3 * cord.radius);
+    }
     pair_lines(&mut out, exhibit, |_| true);
     out
 }

@@ -4,6 +4,7 @@ use soffio_math::{DVec3, Function};
 use soffio_multibody::articulation::{Constraint, ConstraintKind};
 use soffio_multibody::procedural::PositionSolver;
 use soffio_wind::breath::SpreadLaw;
+use soffio_wind::force::TURBULENCE;
 
 /// How the motion of an exhibit is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,11 +49,13 @@ pub struct BreathTuning {
     pub gain: f64,
     /// Diameter of the blowing lips, m; `None` takes the site's.
     pub lip_diameter: Option<f64>,
+    /// β: upper bound of the random part of its force, as a share of it, 0 … 1.
+    pub turbulence: f64,
 }
 
 impl Default for BreathTuning {
     fn default() -> Self {
-        Self { law: SpreadLaw::default(), gain: 1.0, lip_diameter: None }
+        Self { law: SpreadLaw::default(), gain: 1.0, lip_diameter: None, turbulence: TURBULENCE }
     }
 }
 

@@ -1,7 +1,8 @@
-//! Materials, moving bodies and wires of an exhibit.
+//! Materials, moving bodies, wires and cords of an exhibit.
 
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DVec3, Pose};
+use soffio_multibody::articulation::Anchor;
 use soffio_multibody::dynamics::RollingResistance;
 
 /// Physical material of a body.
@@ -65,6 +66,34 @@ pub struct Body {
     pub angular_damping: f64,
     /// Index of its material.
     pub material: usize,
+}
+
+/// A drawn cord: straight from point to point of several bodies. It has no mass, and nothing acts on it.
+#[derive(Clone, Debug)]
+pub struct Cord {
+    /// Name, unique in the exhibit.
+    pub name: String,
+    /// Its points in order, at least two.
+    pub points: Vec<Anchor>,
+    /// Radius, m.
+    pub radius: f64,
+    /// Base colour, linear RGB, 0 … 1.
+    pub color: [f32; 3],
+    /// Perceptual roughness, 0…1.
+    pub roughness: f32,
+}
+
+impl Cord {
+    /// A point of it, world, m, with the bodies at these poses.
+    pub fn point(&self, index: usize, pose: impl Fn(usize) -> Pose) -> DVec3 {
+        let Anchor { body, point } = self.points[index];
+        body.map_or(point, |body| pose(body).point(point))
+    }
+
+    /// Its length with the bodies at these poses, m.
+    pub fn length(&self, pose: impl Fn(usize) -> Pose) -> f64 {
+        (1..self.points.len()).map(|i| self.point(i - 1, &pose).distance(self.point(i, &pose))).sum()
+    }
 }
 
 /// A wire or cord: part of a body, or fixed in the world.

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, TouchPermission};
-use super::bodies::{Body, Material, MaterialPair, Wire};
+use super::bodies::{Body, Cord, Material, MaterialPair, Wire};
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
 use super::model::Model;
 use super::paths::SIDECAR;
-use super::presentation::{Attract, Credit, Labels};
+use super::presentation::{Attract, Credit, Labels, TAKE};
 use super::shape_tracks;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
@@ -69,6 +69,8 @@ pub struct Exhibit {
     pub stabilization_time: f64,
     /// Wires and cords: drawn as capsules, feel the wind, have mass.
     pub wires: Vec<Wire>,
+    /// Cords that are drawn from body to body.
+    pub cords: Vec<Cord>,
     /// Collision shapes.
     pub colliders: Vec<Collider>,
     /// Pairs of bodies that never collide, sorted.
@@ -109,6 +111,11 @@ impl Exhibit {
         let file = self.folder.join(SIDECAR);
         let text = std::fs::read_to_string(&file).unwrap_or_default();
         Report::in_file(&file.display().to_string(), text.into(), self.warnings.clone())
+    }
+
+    /// The invitation to the hand in a language, such as "Take its hand": the label's `take`, where touch is permitted.
+    pub fn hand_invitation(&self, language: &str) -> Option<&str> {
+        self.labels.get(language).filter(|_| self.touch.permitted)?.text(TAKE)
     }
 
     /// Contact properties of two colliders. Restitution and sliding friction are those of the material pair, or the

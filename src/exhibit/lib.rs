@@ -56,7 +56,7 @@ pub use behavior::{
     AirAt, BreathTuning, Follows, ForceOf, IdleDampingSpec, ImpactFrame, Motion, SoundBinding, SoundTrigger,
     TouchPermission,
 };
-pub use bodies::{Body, Material, MaterialPair, Wire};
+pub use bodies::{Body, Cord, Material, MaterialPair, Wire};
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};
 pub use model::Model;

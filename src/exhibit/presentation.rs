@@ -66,10 +66,20 @@ pub struct Label {
     pub body: String,
     /// Description for visitors who cannot see it.
     pub alt: String,
-    /// Texts by key (`invite`, …).
+    /// Texts by key: `invite` to blow, `take` to use the hand, …
     pub text: Vec<(String, String)>,
     /// Captions of sounds by key.
     pub caption: Vec<(String, String)>,
+}
+
+/// Key of the label text that invites the hand.
+pub(super) const TAKE: &str = "take";
+
+impl Label {
+    /// The text of a key.
+    pub fn text(&self, key: &str) -> Option<&str> {
+        self.text.iter().find(|(found, _)| found == key).map(|(_, text)| text.as_str())
+    }
 }
 
 /// Author, licence and rights notice.

@@ -20,9 +20,9 @@ use super::scene::{Batch, Scene, SurfaceKind};
 use super::shadows::{ReceivingPlane, ShadowMapCamera};
 use super::shared::SharedResources;
 use super::skins::Skinned;
-use super::wires::{self, Segment};
+use super::wires::{Lines, Segment};
 use super::{FrameInput, Gpu, Lighting, Options, RenderError, ShadowQuality, materials, occlusion};
-use soffio_exhibit::{Exhibit, Wire};
+use soffio_exhibit::Exhibit;
 use soffio_math::Pose;
 
 /// Points on each lamp's disc from which mesh shadows are cast, by shadow quality: as many steps of penumbra. Chosen by
@@ -44,7 +44,7 @@ pub struct GpuExhibit {
     radius: f32,
     /// Poses of bodies that a frame leaves out.
     start_poses: Vec<Pose>,
-    wires: Vec<Wire>,
+    lines: Lines,
     lights: Vec<Punctual>,
     // Scratch memory, kept so that a frame allocates nothing.
     pub(super) frames: Vec<[Vec4; 3]>,
@@ -212,7 +212,8 @@ impl GpuExhibit {
         };
         let light_group = light_group(gpu, shared, light);
         let blended = scene.batches.iter().filter(|batch| batch.pipeline.kind == SurfaceKind::Blend).count();
-        let (frame_count, segment_count) = (exhibit.bodies.len() + 1, wires::count(&exhibit.wires));
+        let lines = Lines::new(exhibit);
+        let (frame_count, segment_count) = (exhibit.bodies.len() + 1, lines.count());
         Ok(Self {
             buffers: Buffers::new(device, &scene, segment_count, &outlines, &shadow_plates),
             bindings: Bindings {
@@ -229,7 +230,7 @@ impl GpuExhibit {
             lamp_samples,
             radius: gallery.radius,
             start_poses: exhibit.bodies.iter().map(|body| body.pose).collect(),
-            wires: exhibit.wires.clone(),
+            lines,
             batches: scene.batches,
             lights: scene.lights,
             frames: Vec::with_capacity(frame_count),
@@ -260,7 +261,7 @@ impl GpuExhibit {
         self.globals.set_lights(&self.lights, |i| {
             Mat4::from_cols(frames[i][0], frames[i][1], frames[i][2], Vec4::W).transpose()
         });
-        wires::fill(&self.wires, &self.start_poses, frame.poses, self.globals.eye, &mut self.segments);
+        self.lines.fill(&self.start_poses, frame.poses, self.globals.eye, &mut self.segments);
         self.outlines.update(&self.frames, &self.globals, frame.size);
         self.plate_shadows.update(&self.frames);
         if self.has_changed() {

@@ -1,9 +1,9 @@
-//! Wires as capsule segments, cut at their joints by the bisecting planes.
+//! Wires and cords as capsule segments, cut at their joints by the bisecting planes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
-use soffio_exhibit::Wire;
+use soffio_exhibit::{Cord, Exhibit, Wire};
 use soffio_math::Pose;
 
 /// A straight segment of a wire, in the world, in the layout of `wires.wgsl`.
@@ -22,23 +22,58 @@ pub(super) struct Segment {
     cut_b: Vec4,
 }
 
-/// Number of segments of all wires.
-pub(super) fn count(wires: &[Wire]) -> usize {
-    wires.iter().map(|wire| wire.points.len().saturating_sub(1)).sum()
+/// The wires and cords of an exhibit.
+pub(super) struct Lines {
+    wires: Vec<Wire>,
+    cords: Vec<Cord>,
 }
 
-/// Fills `segments` with all wires at these poses, the farthest from the camera first. Bodies without a pose are at
-/// `rest`.
-pub(super) fn fill(wires: &[Wire], rest: &[Pose], poses: &[Pose], eye: Vec3, segments: &mut Vec<Segment>) {
-    segments.clear();
-    for wire in wires {
-        let pose = match wire.body {
-            None => Pose::IDENTITY,
-            Some(body) => *poses.get(body).unwrap_or(&rest[body]),
-        };
-        let point = |i: usize| pose.point(wire.points[i]).as_vec3();
-        let color = Vec3::from_array(wire.color).extend(wire.roughness);
-        let count = wire.points.len();
+impl Lines {
+    /// Those of an exhibit.
+    pub(super) fn new(exhibit: &Exhibit) -> Self {
+        Self { wires: exhibit.wires.clone(), cords: exhibit.cords.clone() }
+    }
+
+    /// Number of their segments.
+    pub(super) fn count(&self) -> usize {
+        let points = self.wires.iter().map(|wire| wire.points.len()).chain(self.cords.iter().map(|c| c.points.len()));
+        points.map(|points| points.saturating_sub(1)).sum()
+    }
+
+    /// Fills `segments` with all of them at these poses, the farthest from the camera first. Bodies without a pose are at
+    /// `rest`.
+    pub(super) fn fill(&self, rest: &[Pose], poses: &[Pose], eye: Vec3, segments: &mut Vec<Segment>) {
+        segments.clear();
+        let pose = |body: usize| *poses.get(body).unwrap_or(&rest[body]);
+        for wire in &self.wires {
+            let pose = wire.body.map_or(Pose::IDENTITY, pose);
+            let look =
+                Look { radius: wire.radius, color: wire.color, metallic: wire.metallic, roughness: wire.roughness };
+            look.draw(wire.points.len(), |i| pose.point(wire.points[i]).as_vec3(), segments);
+        }
+        for cord in &self.cords {
+            let look = Look { radius: cord.radius, color: cord.color, metallic: 0.0, roughness: cord.roughness };
+            look.draw(cord.points.len(), |i| cord.point(i, pose).as_vec3(), segments);
+        }
+        let distance = |s: &Segment| (0.5 * (s.a + s.b).truncate() - eye).length_squared();
+        segments.sort_unstable_by(|x, y| distance(y).total_cmp(&distance(x)));
+    }
+}
+
+/// How a line looks.
+struct Look {
+    /// m.
+    radius: f64,
+    /// Linear RGB.
+    color: [f32; 3],
+    metallic: f32,
+    roughness: f32,
+}
+
+impl Look {
+    /// Adds the segments of a line of `count` points (world, m).
+    fn draw(&self, count: usize, point: impl Fn(usize) -> Vec3, segments: &mut Vec<Segment>) {
+        let color = Vec3::from_array(self.color).extend(self.roughness);
         for i in 1..count {
             let (a, b) = (point(i - 1), point(i));
             let along = (b - a).normalize_or_zero();
@@ -50,14 +85,12 @@ pub(super) fn fill(wires: &[Wire], rest: &[Pose], poses: &[Pose], eye: Vec3, seg
             let before = (i >= 2).then(|| (a - point(i - 2)).normalize_or_zero());
             let after = (i + 1 < count).then(|| (point(i + 1) - b).normalize_or_zero());
             segments.push(Segment {
-                a: a.extend(wire.radius as f32),
-                b: b.extend(wire.metallic),
+                a: a.extend(self.radius as f32),
+                b: b.extend(self.metallic),
                 color,
                 cut_a: cut(before),
                 cut_b: cut(after),
             });
         }
     }
-    let distance = |s: &Segment| (0.5 * (s.a + s.b).truncate() - eye).length_squared();
-    segments.sort_unstable_by(|x, y| distance(y).total_cmp(&distance(x)));
 }

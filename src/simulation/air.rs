@@ -46,7 +46,12 @@ impl AimedBreath<'_> {
         };
         let gain = exhibit.breath.gain * settings.breath_gain * settings.profile.gain(speed);
         let blows = speed > 0.0 || jet_front.is_some_and(JetFront::in_flight);
-        (blows && settings.wind).then(|| BreathJet { breath: self.breath(), jet_front, gain })
+        (blows && settings.wind).then(|| BreathJet {
+            breath: self.breath(),
+            jet_front,
+            gain,
+            turbulence: exhibit.breath.turbulence,
+        })
     }
 }
 

@@ -1,11 +1,11 @@
 //! Velocity field of a breath: a round turbulent jet, or a cone of constant flow.
 //!
 //! Symbols: d = 2 r₀ lip diameter, U₀ speed at the lips, x distance along the axis, r distance from it, Q = U₀ π d²/4
-//! the flow, l₀ = r₀/tan 11.8° distance of the cone's vertex behind the lips. Two spreading laws (method 4.1):
+//! the flow, l₀ distance of the cone's vertex behind the lips: by default r₀/tan 11.8°. Two spreading laws (method 4.1):
 //!
 //! ```text
 //! jet    v(x, r) = U₀ min(1, 6 d/x) exp(−ln 2 (r / 0.094 x)²)
-//! cone   v(x, r) = U₀ (l₀/(l₀ + x))²   where r ≤ r₀ + x tan 11.8°, else 0
+//! cone   v(x, r) = U₀ (l₀/(l₀ + x))²   where r ≤ r₀ (1 + x/l₀), else 0
 //! ```
 //!
 //! The *jet* (default) is a round turbulent jet, which keeps its momentum and entrains air (S. B. Pope, Turbulent Flows,
@@ -27,10 +27,13 @@ pub const TAN_HALF_ANGLE: f64 = 0.208_916;
 const JET_EDGE: f64 = 4.0;
 
 /// Law by which a breath spreads.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SpreadLaw {
     /// Constant flow: the air that leaves the lips fills a cone.
-    Cone,
+    Cone {
+        /// l₀, m: the longer, the narrower; `None` is r₀/tan 11.8°, as wide as a jet looks.
+        vertex_distance: Option<f64>,
+    },
     /// Constant momentum: a round turbulent jet.
     #[default]
     Jet,
@@ -81,14 +84,18 @@ impl Breath {
 
     /// l₀: distance of the vertex behind the lips, m.
     pub fn vertex_distance(&self) -> f64 {
-        0.5 * self.lip_diameter / TAN_HALF_ANGLE
+        match self.law {
+            SpreadLaw::Cone { vertex_distance: Some(distance) } => distance,
+            _ => 0.5 * self.lip_diameter / TAN_HALF_ANGLE,
+        }
     }
 
     /// Half-width at a distance `x` (m) from the lips, m: half-speed radius of the jet, or radius of the cone.
     pub fn half_width(&self, x: f64) -> f64 {
         match self.law {
             SpreadLaw::Jet => (SPREAD * x).max(0.5 * self.lip_diameter),
-            SpreadLaw::Cone => 0.5 * self.lip_diameter + TAN_HALF_ANGLE * x,
+            SpreadLaw::Cone { vertex_distance: None } => 0.5 * self.lip_diameter + TAN_HALF_ANGLE * x,
+            SpreadLaw::Cone { vertex_distance: Some(distance) } => 0.5 * self.lip_diameter * (1.0 + x / distance),
         }
     }
 
@@ -106,7 +113,7 @@ impl Breath {
             SpreadLaw::Jet if r2 < JET_EDGE * JET_EDGE * half * half => {
                 (DECAY * self.lip_diameter / x).min(1.0) * exp(-std::f64::consts::LN_2 * r2 / (half * half))
             }
-            SpreadLaw::Cone if r2 <= half * half => {
+            SpreadLaw::Cone { .. } if r2 <= half * half => {
                 let narrowing = self.vertex_distance() / (self.vertex_distance() + x);
                 narrowing * narrowing
             }
@@ -122,7 +129,7 @@ impl Breath {
         let x = from.dot(self.direction);
         let edge = match self.law {
             SpreadLaw::Jet => JET_EDGE,
-            SpreadLaw::Cone => 1.0,
+            SpreadLaw::Cone { .. } => 1.0,
         };
         let off = (from - x * self.direction).length() - radius;
         x > -radius && off <= edge * self.half_width(x + radius)
@@ -144,6 +151,8 @@ impl Breath {
 mod tests {
     use super::*;
     use soffio_math::noise::Random;
+
+    const CONE: SpreadLaw = SpreadLaw::Cone { vertex_distance: None };
 
     fn breath(law: SpreadLaw, speed: f64) -> Breath {
         Breath { mouth: DVec3::ZERO, direction: DVec3::Z, lip_diameter: 0.01, speed, law }
@@ -182,12 +191,24 @@ mod tests {
     }
 
     #[test]
-    fn the_cone_keeps_its_flow() {
-        for x in [0.05, 0.3, 0.5, 1.2] {
-            let breath = breath(SpreadLaw::Cone, 9.0);
-            let flow = over_section(&breath, x, |v| v) / (0.25 * PI * 1e-4 * 9.0);
-            assert!((flow - 1.0).abs() < QUADRATURE, "{flow} of the flow at the lips at {x} m");
+    fn the_cone_keeps_its_flow_at_any_spread() {
+        for vertex_distance in [None, Some(0.005), Some(0.05), Some(1.0)] {
+            for x in [0.05, 0.3, 0.5, 1.2] {
+                let breath = breath(SpreadLaw::Cone { vertex_distance }, 9.0);
+                let flow = over_section(&breath, x, |v| v) / (0.25 * PI * 1e-4 * 9.0);
+                assert!((flow - 1.0).abs() < QUADRATURE, "{flow} of the flow at {x} m, l₀ {vertex_distance:?}");
+            }
         }
+    }
+
+    #[test]
+    fn a_farther_vertex_gives_a_narrower_and_faster_cone() {
+        // (l₀/(l₀ + x))² and r₀ (l₀ + x)/l₀, in figures: l₀ of 50 mm at 450 mm gives a hundredth and ten times the lips.
+        let cone = |distance| breath(SpreadLaw::Cone { vertex_distance: Some(distance) }, 9.0);
+        assert!((cone(0.05).velocity(DVec3::Z * 0.45).length() - 0.09).abs() < 1e-12);
+        assert!((cone(0.05).half_width(0.45) - 0.05).abs() < 1e-12);
+        assert!(cone(0.5).half_width(0.45) < 0.01 && cone(0.5).velocity(DVec3::Z * 0.45).length() > 2.0);
+        assert_eq!(cone(0.05).velocity(DVec3::new(0.051, 0.0, 0.45)), DVec3::ZERO, "outside it the air is still");
     }
 
     #[test]
@@ -197,14 +218,14 @@ mod tests {
         for (x, v) in [(0.3, 1.8), (0.5, 1.07), (0.8, 0.67), (1.2, 0.45)] {
             assert!((on_axis(SpreadLaw::Jet, 8.9, x) / v - 1.0).abs() < TWO_DIGITS);
         }
-        let (jet, cone) = (on_axis(SpreadLaw::Jet, 8.9, 0.5), on_axis(SpreadLaw::Cone, 8.9, 0.5));
+        let (jet, cone) = (on_axis(SpreadLaw::Jet, 8.9, 0.5), on_axis(CONE, 8.9, 0.5));
         assert!((cone / 0.019 - 1.0).abs() < TWO_DIGITS, "{cone} m/s");
         assert!((jet / cone / 57.0 - 1.0).abs() < TWO_DIGITS, "the jet is {} times as fast", jet / cone);
     }
 
     #[test]
     fn air_behind_the_lips_and_outside_the_breath_is_still() {
-        for law in [SpreadLaw::Cone, SpreadLaw::Jet] {
+        for law in [CONE, SpreadLaw::Jet] {
             let breath = breath(law, 9.0);
             assert_eq!(breath.velocity(DVec3::new(0.0, 0.0, -0.01)), DVec3::ZERO);
             assert_eq!(breath.velocity(DVec3::new(0.3, 0.0, 0.5)), DVec3::ZERO);
@@ -216,7 +237,7 @@ mod tests {
         const SEED: u64 = 12;
         let mut random = Random::new(SEED);
         let mut any = |size: f64| DVec3::new(random.signed(), random.signed(), random.signed()) * size;
-        for law in [SpreadLaw::Cone, SpreadLaw::Jet] {
+        for law in [CONE, SpreadLaw::Jet] {
             let (breath, mut out, mut in_reach) = (breath(law, 9.0), 0, 0);
             for _ in 0..2000 {
                 let (center, radius) = (any(0.3), any(0.1).length());

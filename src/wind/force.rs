@@ -48,8 +48,8 @@ use soffio_math::lanes::WIDTH;
 use soffio_math::noise::perlin3_vector;
 use soffio_math::spatial::{Vec6, add_wrench, angular, linear, vec6};
 
-/// β: upper bound of the random part of a breath's force on a patch, as a share of it. With the noise below, the force on a
-/// face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
+/// β where nothing else is set: upper bound of the random part of a breath's force on a patch, as a share of it. With the noise
+/// below, the force on a face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
 pub const TURBULENCE: f64 = 0.6;
 
 /// Noise g of a breath's turbulence.
@@ -80,6 +80,8 @@ pub struct BreathJet<'a> {
     pub jet_front: Option<&'a JetFront>,
     /// G: multiplies the breath's force.
     pub gain: f64,
+    /// β: upper bound of the random part of its force on a patch, as a share of it, 0 … 1.
+    pub turbulence: f64,
 }
 
 impl BreathJet<'_> {
@@ -110,7 +112,7 @@ pub struct WindReport {
     pub breath: DVec3,
     /// Upper bound of the breath's part, N: momentum flow times gain.
     pub bound: f64,
-    /// Relative gust of the breath half a metre before the lips, within ±1.
+    /// Relative gust of the breath half a metre before the lips, within ±1 at the usual β, and in proportion to β.
     pub gust: f64,
 }
 
@@ -280,7 +282,7 @@ impl WindField {
                 let added = lane(&added, k);
                 let gust = self.gust(&jet.breath, posed.place(patch).point);
                 let response = surface.gust_response(patch, to_body * gust);
-                let added = added + TURBULENCE * added.length() * response;
+                let added = added + jet.turbulence * added.length() * response;
                 load.force_sum += added.length();
                 load.source_speed = air.source_speed.max(load.source_speed);
                 add_wrench(&mut breath_sum, patch.point - center, added);
@@ -309,7 +311,7 @@ impl WindField {
         report.force += report.breath;
         report.bound = jet.gain * most;
         let ahead = jet.breath.mouth + GUST_DISTANCE * jet.breath.direction;
-        report.gust = self.gust(&jet.breath, ahead).dot(jet.breath.direction);
+        report.gust = jet.turbulence / TURBULENCE * self.gust(&jet.breath, ahead).dot(jet.breath.direction);
     }
 
     /// How loud the air over each surface was in the last step, in the order of the surfaces.
@@ -342,7 +344,7 @@ impl WindField {
         if source_speed <= 0.0 {
             return DVec3::ZERO;
         }
-        velocity + 0.5 * TURBULENCE * velocity.length() * self.gust(&jet.breath, point)
+        velocity + 0.5 * jet.turbulence * velocity.length() * self.gust(&jet.breath, point)
     }
 
     /// g: turbulence of the breath at a point (world, m), of length below 1, carried downstream.

@@ -14,7 +14,7 @@ use soffio_simulation::{
 use soffio_sound::SoundCommand;
 use soffio_wind::SurfaceShape;
 use soffio_wind::breath::{Breath, SpreadLaw};
-use soffio_wind::force::{BreathJet, WindField};
+use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
 
 const ASPECT: f64 = 16.0 / 9.0;
 const G: f64 = 9.81;
@@ -460,7 +460,7 @@ impl Wound {
         for _ in 0..steps(seconds) {
             self.wrenches.fill([0.0; 6]);
             if speed > 0.0 {
-                let blown = BreathJet { breath, jet_front: None, gain: 10.0 };
+                let blown = BreathJet { breath, jet_front: None, gain: 10.0, turbulence: TURBULENCE };
                 self.air.apply_forces(&self.dynamics.bodies, self.step as f64 * dt, Some(&blown), &mut self.wrenches);
             }
             let before = wheels.map(|wheel| angle(&self.dynamics.bodies[wheel]));

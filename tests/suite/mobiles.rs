@@ -13,7 +13,7 @@ use soffio_multibody::dynamics::{Articulation, Dynamics, Settings as DynamicsSet
 use soffio_simulation::{Command, EventKind, STEPS_PER_SECOND, Settings, Simulation, StepInput};
 use soffio_wind::SurfaceShape;
 use soffio_wind::breath::{Breath, SpreadLaw};
-use soffio_wind::force::{BreathJet, WindField};
+use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
 
 const G: f64 = 9.81;
 /// Of turns and periods against the design sheets.
@@ -354,7 +354,7 @@ fn a_breaths_run_agrees_with_an_independent_integration_of_its_forces() {
         let mut wrenches: Vec<Vec6> = vec![[0.0; 6]; start.len()];
         for step in 0..steps(SECONDS) {
             // A breath of a second and a half, whose forces both feel alike.
-            let blown = BreathJet { breath, jet_front: None, gain: 4.0 };
+            let blown = BreathJet { breath, jet_front: None, gain: 4.0, turbulence: TURBULENCE };
             let time = step as f64 * dt;
             wrenches.fill([0.0; 6]);
             air.apply_forces(&dynamics.bodies, time, Some(&blown).filter(|_| time < 1.5), &mut wrenches);

@@ -34,6 +34,40 @@ fn step(simulation: &mut Simulation, mode: MotionMode, grabs: &[PointerGrab]) {
 }
 
 #[test]
+fn a_hand_that_is_invited_moves_what_it_takes() {
+    /// What a visitor sees at once, m.
+    const SEEN: f64 = 0.03;
+    let taken = [
+        ("marionette", "ForearmLeft"),
+        ("chains", "HeavyDisc"),
+        ("chain-light", "LightDisc"),
+        ("chain-heavy", "HeavyDisc"),
+        ("breaking-chain", "Disc"),
+        ("scratch-board", "Quill"),
+        ("strikers", "MalletDrum"),
+        ("hang-it", "Arm"),
+    ];
+    let inviting = exhibit::ids().into_iter().filter(|id| load(id).hand_invitation("en").is_some());
+    for id in inviting {
+        let (_, name) =
+            taken.iter().find(|(of, _)| *of == id).unwrap_or_else(|| panic!("what does a hand take of {id}?"));
+        let mut simulation = begin(&id);
+        let body = body(&simulation, name);
+        let [x, y] = screen_position(&simulation, body);
+        let start = simulation.bodies()[body].position;
+        let mut way: f64 = 0.0;
+        for index in 0..360 {
+            let s = f64::from(index.min(120)) / 120.0;
+            let grabs = [PointerGrab { id: 1, at: [x + 0.08 * s, (y - 0.25 * s).max(0.05)], body: Some(body) }];
+            step(&mut simulation, MotionMode::Dynamic, &grabs);
+            way = way.max(simulation.bodies()[body].position.distance(start));
+        }
+        println!("{id}: a hand moves {name} by {:.0} mm", 1e3 * way);
+        assert!(way > SEEN, "{id}: a hand moves {name} by {way} m");
+    }
+}
+
+#[test]
 fn a_grabbed_body_follows_the_finger_in_every_motion_mode() {
     /// After a second at rest, m: the steady pull of gravity against a grab by speed costs at most g Δt τ = 2 mm. It is
     /// larger by 1/cos² of the angle between view ray and displacement. The procedural rule ignores small

@@ -12,7 +12,7 @@ use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
 use soffio_math::{DMat3, DVec3, PI, Pose, rotation, sincos};
 use soffio_wind::breath::{Breath, SpreadLaw};
-use soffio_wind::force::{BreathJet, WindField};
+use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
 use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 /// Parts of the crowd, patches on each, and rings of a ball: 10,000 patches and 5,000 triangles.
@@ -66,7 +66,7 @@ fn measure() -> Row {
     let breath =
         Breath { mouth: DVec3::Z * 0.5, direction: DVec3::NEG_Z, lip_diameter: 0.01, speed: 17.0, law: SpreadLaw::Jet };
     let mut field = WindField::new(&surfaces, &Shelter::of(&surfaces), &[], PARTS, SEED);
-    let blown = BreathJet { breath, jet_front: None, gain: 1.0 };
+    let blown = BreathJet { breath, jet_front: None, gain: 1.0, turbulence: TURBULENCE };
     let mut out = vec![[0.0; 6]; PARTS];
     let whole = best(&steps, |step, bodies| {
         out.fill([0.0; 6]);

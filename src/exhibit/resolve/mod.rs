@@ -1,13 +1,14 @@
 //! Resolves sidecar and model to a valid [`Exhibit`]: each stage turns names into indices and reports problems.
 //!
 //! A stage does not stop at its first problem. Values that cannot be resolved are left out and reported, so an exhibit
-//! is returned only without errors. Stages in order: materials, bodies, wires, masses, joints, colliders, wind and
+//! is returned only without errors. Stages in order: materials, bodies, wires, cords, masses, joints, colliders, wind and
 //! sound, texts.
 
 mod bodies;
 mod clock;
 mod colliders;
 mod context;
+mod cords;
 mod joints;
 mod materials;
 mod motion;
@@ -128,6 +129,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         solver: Solver::Sparse,
         stabilization_time: STABILIZATION_TIME,
         wires: Vec::new(),
+        cords: Vec::new(),
         colliders: Vec::new(),
         excluded_pairs: Vec::new(),
         wind_surfaces: Vec::new(),
@@ -194,6 +196,7 @@ impl Context<'_> {
         let material_pairs = self.material_pairs();
         let declared = self.declare_bodies();
         let wires = self.wires();
+        let cords = self.cords(&wires);
         let bodies = self.resolve_masses(&declared, &wires);
         let joints::Joints { constraints, limits, springs, .. } = self.joints();
         let drives = std::mem::take(&mut self.drives);
@@ -247,6 +250,7 @@ impl Context<'_> {
             solver,
             stabilization_time,
             wires,
+            cords,
             colliders,
             excluded_pairs,
             wind_surfaces,

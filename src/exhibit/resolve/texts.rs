@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::diagnostic::Diagnostic;
+use super::super::presentation::TAKE;
 use super::super::quantity::{Angle, Quantity};
 use super::super::source::join;
 use super::super::view::{MAX_PITCH_DOWN, MAX_PITCH_UP, MAX_YAW};
@@ -39,6 +40,12 @@ impl Context<'_> {
                     let problem = Diagnostic::new(code_of, format!("the label in \"{code}\" has no {key}"));
                     self.report(&at, problem.help(format!("write {key} = \"…\" there")));
                 }
+            }
+            if texts.text.contains_key(TAKE) && !sidecar.touch.permitted {
+                let message = format!("text \"{TAKE}\" invites the hand, but nobody may touch the exhibit");
+                let problem = Diagnostic::new(codes::UNUSED, message);
+                let help = "leave it out, or write [touch] permitted = true";
+                self.report(&join(&join(&at, "text"), TAKE), problem.help(help));
             }
             languages.push((code.clone(), self.label(texts, &at)));
         }

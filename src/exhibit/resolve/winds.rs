@@ -15,6 +15,8 @@ use soffio_wind::{Shelter, Surface};
 /// Default size (m) and period (s) of the largest eddies of ambient turbulence.
 const AMBIENT_SCALE: f64 = 0.6;
 const AMBIENT_PERIOD: f64 = 6.0;
+/// Distances of a cone's vertex behind the lips, m: from nearly all directions to a beam.
+const VERTEX_DISTANCES: std::ops::RangeInclusive<f64> = 1e-3..=10.0;
 /// Name of the ambient turbulence among the winds.
 const AMBIENT: &str = "room";
 
@@ -22,18 +24,38 @@ impl Context<'_> {
     /// How a breath acts on the exhibit.
     pub(super) fn breath_tuning(&mut self) -> BreathTuning {
         let given = self.sidecar.wind.breath;
+        let vertex_distance = given.vertex_distance.and_then(|distance| self.vertex_distance(given.law, distance.0));
         let law = match given.law {
-            sidecar::Law::Cone => SpreadLaw::Cone,
+            sidecar::Law::Cone => SpreadLaw::Cone { vertex_distance },
             sidecar::Law::Jet => SpreadLaw::Jet,
         };
         let place = "/wind/breath/lip_diameter";
         let lip_diameter = given.lip_diameter.map(|d| self.positive(d.0, place));
-        self.record_origin("breath", "law", format!("{law:?}"), "/wind/breath/law", "default");
+        self.record_origin("breath", "law", format!("{:?}", given.law), "/wind/breath/law", "default");
         self.record_origin("breath", "gain", given.gain.to_string(), "/wind/breath/gain", "default");
         if let Some(d) = lip_diameter {
             self.record_origin("breath", "lip_diameter", format!("{} mm", d * 1e3), place, "");
         }
-        BreathTuning { law, gain: given.gain, lip_diameter }
+        self.record_origin("breath", "turbulence", given.turbulence.to_string(), "/wind/breath/turbulence", "default");
+        BreathTuning { law, gain: given.gain, lip_diameter, turbulence: given.turbulence }
+    }
+
+    /// l₀ of a cone, m; `None` where it was refused.
+    fn vertex_distance(&mut self, law: sidecar::Law, distance: f64) -> Option<f64> {
+        let place = "/wind/breath/vertex_distance";
+        if law == sidecar::Law::Jet {
+            let problem =
+                Diagnostic::new(codes::RANGE, "a jet has no vertex_distance: its spread follows from turbulence");
+            self.report(place, problem.help("write law = \"cone\" beside it, or leave it out"));
+            return None;
+        }
+        if !VERTEX_DISTANCES.contains(&distance) {
+            let problem = Diagnostic::new(codes::RANGE, format!("a vertex_distance of {distance} m is out of range"));
+            self.report(place, problem.help("give a length from 1 mm to 10 m; 24 mm is usual"));
+            return None;
+        }
+        self.record_origin("breath", "vertex_distance", format!("{} mm", distance * 1e3), place, "");
+        Some(distance)
     }
 
     /// Idle damping.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::super::quantity::*;
-use super::{Name, Path, Point};
+use super::{Attachment, Name, Path, Point};
 
 /// A node that moves as one rigid body with all nodes below it that are not bodies themselves.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -145,6 +145,25 @@ pub struct Wire {
 
 fn yes() -> bool {
     true
+}
+
+/// A cord that is only drawn: straight from point to point, each on a body of its own or fixed, so that its length follows
+/// them. Joints, limits and couplings do its work.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Cord {
+    /// Unique name.
+    pub name: Name,
+    /// Its points in order: where it leaves a drum, passes a pulley, holds a weight.
+    #[schemars(length(min = 2))]
+    pub points: Vec<Attachment>,
+    /// Radius; by default 0.6 mm.
+    pub radius: Option<Length>,
+    /// Colour: linear [r, g, b], or sRGB "#rrggbb"; by default that of hemp.
+    pub color: Option<Color>,
+    /// Perceptual roughness 0 … 1; by default 0.8.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub roughness: Option<f32>,
 }
 
 /// The points of a wire.

@@ -68,6 +68,9 @@ pub struct Sidecar {
     /// Wires and cords.
     #[serde(default)]
     pub wire: Vec<Wire>,
+    /// Cords that are drawn from body to body.
+    #[serde(default)]
+    pub cord: Vec<Cord>,
     /// Joints, one array for each kind.
     #[serde(default)]
     pub constraint: Constraints,

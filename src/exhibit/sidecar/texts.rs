@@ -75,7 +75,8 @@ pub struct LabelTexts {
     pub body: String,
     /// Description for visitors who cannot see it.
     pub alt: String,
-    /// Texts by key.
+    /// Texts by key. `invite` invites to blow; `take` invites the hand, where touch is permitted; a step of the attract script
+    /// may show any other.
     pub text: BTreeMap<String, String>,
     /// Captions of sounds by key.
     pub caption: BTreeMap<String, String>,

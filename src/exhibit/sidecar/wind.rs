@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use soffio_wind::force::TURBULENCE;
+
 use super::super::quantity::*;
 use super::{Function, Name, Point};
 
@@ -37,11 +39,17 @@ pub struct BreathTuning {
     pub gain: f64,
     /// Diameter of the blowing lips; by default the site's.
     pub lip_diameter: Option<Length>,
+    /// With law = "cone": distance of the cone's vertex behind the lips, 1 mm … 10 m. The longer, the narrower the cone and
+    /// the faster its air. By default that of a cone of 11.8° to each side: 24 mm for lips of 10 mm.
+    pub vertex_distance: Option<Length>,
+    /// Turbulence: greatest random part of its force, as a fraction of it; 0 is a steady breath.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub turbulence: f64,
 }
 
 impl Default for BreathTuning {
     fn default() -> Self {
-        Self { law: Law::Jet, gain: 1.0, lip_diameter: None }
+        Self { law: Law::Jet, gain: 1.0, lip_diameter: None, vertex_distance: None, turbulence: TURBULENCE }
     }
 }
 

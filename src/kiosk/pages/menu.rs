@@ -240,7 +240,7 @@ fn wall_text(canvas: &Canvas, scene: &Scene, area: Rect) {
     let Some(label) = scene.exhibit.labels.get(scene.language) else { return };
     let invite = if scene.breath_input.is_active { texts.get(TextId::Invite) } else { "" };
     let hold = texts.get(scene.how_to_blow());
-    let play = [invite, texts.get(TextId::Aim), hold, texts.get(TextId::Take)];
+    let play = [invite, texts.get(TextId::Aim), hold, scene.how_to_take()];
     let parts: Vec<(&str, f32, f32)> = [(label.title.as_str(), 1.5, 0.2), (label.maker.as_str(), 0.8, 1.0)]
         .into_iter()
         .chain([(label.body.trim(), 0.95, 1.2)])

@@ -121,6 +121,14 @@ impl Scene<'_> {
         }
     }
 
+    /// The text that explains taking hold of the exhibit, its own or the general one; empty where touch is not permitted.
+    pub fn how_to_take(&self) -> &str {
+        if !self.exhibit.touch.permitted {
+            return "";
+        }
+        self.exhibit.hand_invitation(self.language).unwrap_or(self.texts().get(TextId::Take))
+    }
+
     /// The text that explains looking round the exhibit.
     pub fn how_to_look_round(&self) -> TextId {
         if self.accessibility.presses_once() { TextId::LookRoundPress } else { TextId::LookRoundDrag }
@@ -270,11 +278,18 @@ fn cover(painter: &Painter, scene: &Scene) -> bool {
     closed
 }
 
-/// The invitation: the text of attract mode, else the label's own, else the kiosk's.
+/// The invitation to the hand, where the exhibit has one, and below it that to blow.
 fn invitation_text(scene: &Scene) -> String {
+    let blow = breath_invitation(scene);
+    let hand = scene.exhibit.hand_invitation(scene.invitation_language);
+    hand.map_or(blow.clone(), |hand| format!("{hand}\n{blow}"))
+}
+
+/// The invitation to blow: the text of attract mode, else the label's own, else the kiosk's.
+fn breath_invitation(scene: &Scene) -> String {
     let texts = scene.translations.get(scene.invitation_language);
     let label = scene.exhibit.labels.get(scene.invitation_language);
-    let find = |key: &str| label?.text.iter().find(|(k, _)| k == key).map(|(_, text)| text.clone());
+    let find = |key: &str| Some(label?.text(key)?.to_owned());
     // Visitors who do not hold a key are not asked to.
     if scene.accessibility.presses_once() && !(scene.breath_input.is_active && scene.breath_input.is_allowed) {
         return texts.get(scene.how_to_blow()).into();

@@ -30,7 +30,7 @@ pub fn exhibit(scene: &Scene) -> Vec<SpokenText> {
         invite,
         texts.get(TextId::Aim),
         hold,
-        texts.get(TextId::Take),
+        scene.how_to_take(),
         sound,
         privacy,
         &scene.exhibit.credit.notice,

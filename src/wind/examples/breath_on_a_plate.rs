@@ -10,7 +10,7 @@ use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::spatial::linear;
 use soffio_math::{DMat3, DVec3, Pose};
 use soffio_wind::breath::{Breath, SpreadLaw};
-use soffio_wind::force::{BreathJet, WindField};
+use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
 use soffio_wind::{Surface, SurfaceShape};
 
 /// Side of the plate, m.
@@ -40,7 +40,12 @@ fn main() {
     for centimetres in [5, 10, 20, 30, 50, 70, 100] {
         let breath = from(f64::from(centimetres) / 100.0);
         let mut forces = [[0.0; 6]];
-        air.apply_forces(&bodies, 0.0, Some(&BreathJet { breath, jet_front: None, gain: 1.0 }), &mut forces);
+        air.apply_forces(
+            &bodies,
+            0.0,
+            Some(&BreathJet { breath, jet_front: None, gain: 1.0, turbulence: TURBULENCE }),
+            &mut forces,
+        );
         let speed = breath.velocity(DVec3::ZERO).length();
         println!("{centimetres:>12}   {speed:>26.2}   {:>9.3}", 1e3 * linear(&forces[0]).length());
     }

@@ -81,8 +81,11 @@ fn the_full_examples_winds_are_what_it_says() {
     assert_eq!(exhibit.winds[3].kind, WindKind::Draught { direction: DVec3::X, inlet: None });
     assert_eq!(
         (exhibit.breath.law, exhibit.breath.gain, exhibit.breath.lip_diameter),
-        (SpreadLaw::Jet, 1.5, Some(0.012))
+        (SpreadLaw::Cone { vertex_distance: Some(0.03) }, 1.5, Some(0.012))
     );
+    assert_eq!(exhibit.breath.turbulence, 0.4);
+    let carriers: Vec<Option<usize>> = exhibit.cords[0].points.iter().map(|point| point.body).collect();
+    assert_eq!(carriers, ["EscapeWheel", "Weight"].map(|name| exhibit.bodies.iter().position(|b| b.name == name)));
     // Every body with a mesh shelters; the rail, which stands still, is open.
     let mut carriers: Vec<Option<usize>> = exhibit.shelters.iter().map(|shelter| shelter.body).collect();
     carriers.sort_unstable();

@@ -364,6 +364,36 @@ fn after_much_hard_blowing_a_rest_is_proposed_and_forgotten() {
 }
 
 #[test]
+fn a_hand_is_invited_in_every_language_where_it_may_take_hold() {
+    let inviting = |id: &String| load(id).hand_invitation("en").is_some();
+    let ids: Vec<String> = exhibit::ids().into_iter().filter(inviting).collect();
+    for id in ["marionette", "chains", "scratch-board", "strikers", "hang-it"] {
+        assert!(ids.iter().any(|inviting| inviting == id), "{id} invites no hand");
+    }
+    for id in ids {
+        let exhibit = load(&id);
+        let mut closed = (*exhibit).clone();
+        closed.touch.permitted = false;
+        let closed = Arc::new(closed);
+        for (code, label) in &exhibit.labels.languages {
+            let take = label.text("take").unwrap_or_else(|| panic!("{id} invites no hand in {code}"));
+            // A hand needs no microphone; and nobody is invited to what is not permitted.
+            for (exhibit, hears, expected) in [(&exhibit, true, true), (&exhibit, false, true), (&closed, true, false)]
+            {
+                let mut visitor = Before::new(exhibit, GLASSES[0]);
+                (visitor.language, visitor.attract, visitor.hears) = (code.clone(), Some("invite"), hears);
+                (0..20).for_each(|_| {
+                    visitor.time += 0.2;
+                    visitor.look();
+                });
+                let invited = visitor.said.iter().any(|text| text.starts_with(take));
+                assert_eq!(invited, expected, "{id}, {code}, hears {hears}: {:?}", visitor.said);
+            }
+        }
+    }
+}
+
+#[test]
 fn where_nobody_blows_nobody_is_invited_to_in_any_language() {
     let exhibit = load("steel-fish");
     for own in texts().languages() {

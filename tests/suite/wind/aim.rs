@@ -19,7 +19,11 @@ fn pendulum() -> Exhibit {
 fn the_ring_is_as_wide_as_the_breath_and_the_meter_as_full_as_it_is_strong() {
     for law in ["jet", "cone"] {
         let mut exhibit = pendulum();
-        exhibit.breath.law = if law == "jet" { Default::default() } else { soffio_wind::breath::SpreadLaw::Cone };
+        exhibit.breath.law = if law == "jet" {
+            Default::default()
+        } else {
+            soffio_wind::breath::SpreadLaw::Cone { vertex_distance: None }
+        };
         let settings = Settings { profile: Profile::Physical, ..Settings::default() };
         let mut simulation = Simulation::new(Arc::new(exhibit), settings);
         let shown = |simulation: &mut Simulation, speed: f64| {

@@ -5,7 +5,7 @@ use soffio_geometry::bodies::{MassProperties, RigidBody};
 use soffio_math::noise::Random;
 use soffio_math::{DMat3, DQuat, DVec3, PI, Pose, rotation, sincos};
 use soffio_wind::breath::{Breath, SpreadLaw};
-use soffio_wind::force::{BreathJet, WindField};
+use soffio_wind::force::{BreathJet, TURBULENCE, WindField};
 use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 pub const C_D: f64 = 1.17;
@@ -91,7 +91,7 @@ pub fn breath(speed: f64) -> Breath {
 
 /// The same as a jet without delay.
 pub fn jet(speed: f64) -> BreathJet<'static> {
-    BreathJet { breath: breath(speed), jet_front: None, gain: 1.0 }
+    BreathJet { breath: breath(speed), jet_front: None, gain: 1.0, turbulence: TURBULENCE }
 }
 
 /// A random vector of length below `most`.

@@ -155,7 +155,7 @@ fn a_breath_never_pushes_harder_than_its_momentum_times_the_gain() {
             })
             .collect();
         let mut jet = jet(random.range(0.5, 30.0));
-        jet.breath.law = if case % 2 == 0 { SpreadLaw::Jet } else { SpreadLaw::Cone };
+        jet.breath.law = if case % 2 == 0 { SpreadLaw::Jet } else { SpreadLaw::Cone { vertex_distance: None } };
         jet.gain = random.range(0.5, 8.0);
         let report = field.apply_forces(&bodies, random.range(0.0, 100.0), Some(&jet), &mut [[0.0; 6]; 4]);
         let bound = jet.breath.momentum_flow(jet.breath.speed) * jet.gain;
@@ -261,7 +261,7 @@ fn air_on_its_way_pushes_after_the_lips_have_closed() {
     let mut field = field(&[sheet(0, face(0.1), 64)], 1);
     let mut jet_front = JetFront::default();
     let mut force = |jet_front: &JetFront, speed: f64| {
-        let jet = BreathJet { breath: breath(speed), jet_front: Some(jet_front), gain: 1.0 };
+        let jet = BreathJet { breath: breath(speed), jet_front: Some(jet_front), gain: 1.0, turbulence: TURBULENCE };
         field.apply_forces(&[body(DVec3::ZERO)], 0.0, Some(&jet), &mut [[0.0; 6]]).breath.length()
     };
     // Half a metre at 8.9 m/s takes 0.468 s: a puff of 0.2 s has left before any of it arrives.
@@ -293,7 +293,7 @@ fn undirected_wind_hardly_changes_a_breath_of_large_gain_on_a_solid() {
     let turbulence = [Wind { name: "room".into(), kind, speed: speed.into(), modulation: Modulation::Steady }];
     let force = |gain: f64, winds: &[Wind], time: f64| {
         let mut field = WindField::new(&[solid(0, plate(0.02, 0.002), 64)], &[], winds, 1, 1);
-        let jet = BreathJet { breath, jet_front: None, gain };
+        let jet = BreathJet { breath, jet_front: None, gain, turbulence: TURBULENCE };
         field.apply_forces(&[body(DVec3::ZERO)], time, Some(&jet), &mut [[0.0; 6]]).breath.length() / gain
     };
     let changed = |gain: f64| {

@@ -5,7 +5,7 @@ use soffio_geometry::bodies::RigidBody;
 use soffio_math::noise::Random;
 use soffio_math::{DVec3, rotation};
 use soffio_wind::ambient::{Inlet, Modulation, Wind, WindKind};
-use soffio_wind::force::{BreathJet, PatchSample, WindField};
+use soffio_wind::force::{BreathJet, PatchSample, TURBULENCE, WindField};
 use soffio_wind::{Shelter, Surface, SurfaceShape};
 
 use super::bodies::*;
@@ -98,7 +98,7 @@ fn each_wind_acts_on_the_patches_that_no_triangle_hides() {
     ];
     let (surfaces, kinds) = surfaces(120, 1);
     let shelters = Shelter::of(&surfaces);
-    let jet = BreathJet { breath: breath(8.9), jet_front: None, gain: 1.0 };
+    let jet = BreathJet { breath: breath(8.9), jet_front: None, gain: 1.0, turbulence: TURBULENCE };
     for kind in wind_kinds.map(Some).into_iter().chain([None]) {
         let wind =
             kind.map(|kind| Wind { name: "wind".into(), kind, speed: 2.0.into(), modulation: Modulation::Steady });
