@@ -19,13 +19,13 @@ use soffio_sound::{SoundCommand, WindSound};
 use soffio_wind::air_noise::AirNoise;
 
 /// Speed below which air makes no sound, m/s: 60 dB below a breath of 1 m/s at the sculpture.
-const CALM: f64 = 0.1;
+const SILENT: f64 = 0.1;
 /// Least change that is sent: of the speed in m/s, of gust, direction and pan in their units. 1 % of a wind of 1 m/s is 0.5 dB.
 const LEAST_CHANGE: f32 = 0.01;
 
 /// One sound that follows the air.
 #[derive(Clone)]
-struct Listening {
+struct AirSound {
     /// Index of the exhibit's sound.
     sound: usize,
     /// Area of the surfaces, m².
@@ -36,7 +36,7 @@ struct Listening {
 
 /// All sounds of an exhibit that follow the air.
 #[derive(Clone)]
-pub(crate) struct AirSounds(Vec<Listening>);
+pub(crate) struct AirSounds(Vec<AirSound>);
 
 impl AirSounds {
     /// The exhibit's, in calm air.
@@ -46,14 +46,14 @@ impl AirSounds {
                 AirAt::Surfaces(surfaces) => surfaces.iter().map(|&surface| air.wind.area(surface)).sum(),
                 AirAt::Wire(_) => 0.0,
             };
-            Some(Listening { sound, area, sent: None })
+            Some(AirSound { sound, area, sent: None })
         });
         Self(follow.collect())
     }
 
     /// Forgets what was sent: the synth has silenced all.
     pub fn reset(&mut self) {
-        self.0.iter_mut().for_each(|listening| listening.sent = None);
+        self.0.iter_mut().for_each(|sound| sound.sent = None);
     }
 
     /// Sends the air of this moment where it has changed.
@@ -66,7 +66,7 @@ impl AirSounds {
         listener: &AudioListener,
         out: &mut Vec<SoundCommand>,
     ) {
-        for Listening { sound, area, sent } in &mut self.0 {
+        for AirSound { sound, area, sent } in &mut self.0 {
             let binding = &breath.exhibit.sounds[*sound];
             let (noise, area) = match &binding.follows.air {
                 Some(AirAt::Surfaces(surfaces)) => {
@@ -77,7 +77,7 @@ impl AirSounds {
                 None => continue,
             };
             let speed = noise.speed(area);
-            let speed = if speed < CALM { 0.0 } else { speed as f32 };
+            let speed = if speed < SILENT { 0.0 } else { speed as f32 };
             let place = listener.locate(noise.place().unwrap_or(bodies[binding.body].position));
             let now = WindSound {
                 sample,
@@ -127,8 +127,9 @@ fn wire_noise(wire: usize, air: &Air, breath: &AimedBreath, bodies: &[RigidBody]
         let (middle, way) = (0.5 * (a + b), b - a);
         let Some(along) = way.try_normalize() else { continue };
         // The sound is that of the wind on the sculpture: a gain of the force is its square root on the speed.
-        let blown = jet.as_ref().map_or(DVec3::ZERO, |jet| jet.gain.sqrt() * air.wind.breath_velocity(jet, middle));
-        let wind = blown + air.wind.directed_velocity(None, middle) + air.wind.undirected_velocity(middle);
+        let breath_air =
+            jet.as_ref().map_or(DVec3::ZERO, |jet| jet.gain.sqrt() * air.wind.breath_velocity(jet, middle));
+        let wind = breath_air + air.wind.directed_velocity(None, middle) + air.wind.undirected_velocity(middle);
         let velocity = wind - moves(middle);
         let across = velocity - velocity.dot(along) * along;
         let square = across.length_squared();

@@ -67,8 +67,8 @@ struct SlideState {
     way: Way,
 }
 
-/// Way of a contact from one command to the next: a straight line that takes as long as the commands are apart, so that what is
-/// drawn on a surface passes evenly.
+/// Way of a contact from one command to the next: a straight line that takes as long as the commands are apart, so that a
+/// picture passes evenly.
 #[derive(Clone, Copy, Default)]
 struct Way {
     from: [f64; 2],

@@ -1,4 +1,4 @@
-//! Ducking: the wind makes way for what rings.
+//! Ducking: the wind makes way for bodies that ring.
 //!
 //! Wind and hits come from the same breath, and noise masks tones (Zwicker and Fastl, Psychoacoustics, chapter 4). With the
 //! envelopes r of all that is not wind and w of the wind, and the headroom H that a hit needs over noise, q = r/(H w). The gain g
@@ -20,7 +20,7 @@ const UNDER_A_HIT: f32 = 0.45;
 const HEADROOM: f32 = 2.5;
 /// L: least q that the wind gives way to, −14 dB; with G, the wind falls by 21 dB at most.
 const LEAST: f32 = 0.2;
-/// Fall of the envelope of what rings, s: longer than the period of a beat, shorter than a chime rings.
+/// Fall of the envelope of all but the wind, s: longer than the period of a beat, shorter than a chime rings.
 const RINGING_FALL: f64 = 0.15;
 /// Fall of the wind's envelope, s: it follows gusts.
 const WIND_FALL: f64 = 0.05;

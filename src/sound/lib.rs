@@ -205,7 +205,7 @@ pub struct MotionSound {
     pub sample: u64,
     /// Index into the exhibit's instruments.
     pub instrument: u16,
-    /// What moves, and how.
+    /// The motion.
     pub motion: BodyMotion,
     /// −1 left … 1 right.
     pub pan: f32,
@@ -267,7 +267,7 @@ pub struct SurfaceLine {
     pub spacing: f64,
 }
 
-/// What is drawn on a body, over both of its largest half extents: read where a contact is.
+/// The picture on a body, over both of its largest half extents, read where a contact is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceRelief {
     /// Brightness or height, row by row; the first row and the first value of each lie at −1. Only differences matter.
@@ -281,7 +281,7 @@ pub struct SurfaceRelief {
 pub enum SoundSurface {
     /// The same line over and over, at the speed of the slide, wherever the contact is.
     Line(SurfaceLine),
-    /// What is drawn at the place of the contact.
+    /// The picture at the place of the contact.
     Relief(Arc<SurfaceRelief>),
 }
 

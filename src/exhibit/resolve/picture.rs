@@ -1,4 +1,4 @@
-//! Surface of a body for sliding contacts: what is drawn on it, from its normal map, or else from the lightness of its colour
+//! Surface of a body for sliding contacts: its picture, from its normal map, or else from the lightness of its colour
 //! texture, laid over its two largest half extents. So the pixels that are seen are the ones that a nib reads.
 //!
 //! A needle that follows heights responds to their slope; a normal map contains it, −∂h/∂x = n_x/n_z.
@@ -38,7 +38,7 @@ struct Grid {
 }
 
 impl Context<'_> {
-    /// What is drawn over the half extents (m) of a node and the nodes below it; `None` where they have no picture.
+    /// Picture over the half extents (m) of a node and the nodes below it; `None` where they have no picture.
     pub(super) fn surface_relief(&self, node: usize, frame: &ImpactFrame, half: [f64; 2]) -> Option<SurfaceRelief> {
         let model = self.model;
         let mut pictured: Vec<Pictured> = Vec::new();

@@ -63,18 +63,18 @@ impl AuditionInstrument {
     /// synth, after those of the exhibit. Hits and slides have the speed of the audition, wind and motion that of the specimen.
     pub fn play(&self, instrument: u16, audition: &Audition, sample: u64) -> Vec<SoundCommand> {
         let s = &self.preset.specimen;
-        let (asked, pan) = (audition.speed as f32, audition.pan);
+        let (speed, pan) = (audition.speed as f32, audition.pan);
         let mut command = s.command(&self.preset, instrument, sample);
         let later = sample + SUSTAINED;
         let end = match &mut command {
             SoundCommand::Strike(strike) => {
                 // The impulse of the specimen's own hit, scaled by the speed.
                 strike.impulse = (s.impulse * audition.speed / s.speed.max(1e-3)) as f32;
-                (strike.speed, strike.pan) = (asked, pan);
+                (strike.speed, strike.pan) = (speed, pan);
                 None
             }
             SoundCommand::Slide(slide) => {
-                (slide.speed, slide.pan) = (asked, pan);
+                (slide.speed, slide.pan) = (speed, pan);
                 Some(SoundCommand::Slide(Slide { sample: later, speed: 0.0, force: 0.0, ..*slide }))
             }
             SoundCommand::Wind(wind) => {

@@ -1,7 +1,7 @@
-//! What is drawn on a body, read where the contact is.
+//! The picture on a body, read where the contact is.
 //!
 //! The picture lies over both half extents of the body. Its values are the coefficients of a cubic B-spline, which smooths by about
-//! a pixel: its second derivative has no jumps, so that the grid of the pixels is not heard, only what is drawn.
+//! a pixel: its second derivative has no jumps, so that only the picture is audible, not the grid of its pixels.
 //!
 //! ```text
 //! r(x, y) = Σ c_ij β(u − i) β(v − j)      u = (x + 1) w/2 − ½,  v = (y + 1) h/2 − ½

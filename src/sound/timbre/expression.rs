@@ -143,7 +143,7 @@ impl Function {
     }
 }
 
-/// What is left to read, and what was compiled of the rest.
+/// The rest of the text, and the program so far.
 struct Parser<'a> {
     rest: &'a str,
     nodes: &'a [String],

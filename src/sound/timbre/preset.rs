@@ -112,8 +112,8 @@ impl Preset {
         self.node.values().any(|node| node.is_played_by(player))
     }
 
-    /// A slide plays what follows a slide, the wind what follows the wind. The motion plays what follows it, unless an envelope or
-    /// the strength of a hit says that each hit begins it anew. Partials that nothing drives wait for hits in any case.
+    /// How it is played: by a slide if any input of a slide is named, else by wind, else by motion, unless an envelope or the
+    /// strength of a hit says that each hit begins it anew. Partials that nothing drives wait for hits in any case.
     pub(crate) fn player(&self) -> Player {
         let waits = |node: &Node| matches!(node, Node::Modal(modal) if modal.r#in.is_none());
         let begins = |node: &Node| matches!(node, Node::Env(_)) || node.is_played_by(Player::Hit);

@@ -434,7 +434,7 @@ fn a_timbre_that_the_motion_does_not_play_is_refused() {
 #[test]
 fn wires_hear_what_blows_across_them() {
     // Three wires at right angles in an even draught: the squares of what crosses them are twice its own square together. A command
-    // tells a change from 0.01 m/s on, and f32 has seven digits.
+    // is sent from a change of 0.01 m/s on, and f32 has seven digits.
     const TOLD: f64 = 0.02;
     let mut scene = Scene::default();
     scene.node("Post", [0.0; 3], Some(&cuboid([0.1; 3])), &[]);

@@ -220,7 +220,7 @@ fn twenty_broken_files_are_reported_at_their_lines() {
         assert_eq!(place.line, line, "{to}: {}", report.to_text());
         assert!(found.message.contains(words), "{to}: {}", found.message);
         assert!(found.help.as_ref().is_some_and(|help| help.contains("soffio sound")), "{to}");
-        // With the line itself, for whoever reads it.
+        // With the line itself.
         assert!(
             report.to_text().contains(broken.lines().nth(line - 1).expect("a line").trim()),
             "{}",

@@ -14,7 +14,7 @@ use super::{RATE, render};
 const YEAR: f64 = 6e-3;
 /// The rings bend and lie about an axis: along a stroke they are this much nearer or farther apart.
 const BENT: f64 = 0.15;
-/// Window of the envelope, s: shorter than a ring takes under the fastest stroke, longer than a period of what rings.
+/// Window of the envelope, s: shorter than a ring takes under the fastest stroke, longer than a period of the board's partials.
 const WINDOW: f64 = 4e-3;
 
 fn board() -> Exhibit {

@@ -19,7 +19,7 @@ const LASTS: f64 = 1.5;
 const SPEED: f64 = 8.0;
 /// Samples of both sides in a twentieth of a second, the shortest time in which a level is heard.
 const FRAME: usize = 2 * 2400;
-/// What stands out over noise, dB.
+/// Level over noise at which a sound stands out, dB.
 const STANDS_OUT: f64 = 6.0;
 /// Level below which nothing is heard in a gallery at the loudness that levels are set for, dBFS: 40 dB below the programme.
 const AUDIBLE: f64 = -63.0;
@@ -101,7 +101,7 @@ fn the_windy_corner_is_heard_without_a_breath_and_follows_its_gusts() {
     let median = amplitude_to_db(sorted[sorted.len() / 2]);
     println!("median {median:.1} dBFS");
     assert!(median > AUDIBLE, "{median} dBFS");
-    // The wind of each frame beside its level: what blows harder is louder.
+    // The wind of each frame beside its level: stronger wind is louder.
     let mut winds = vec![0.0f64; levels.len()];
     for command in &commands {
         if let SoundCommand::Wind(wind) = command {
