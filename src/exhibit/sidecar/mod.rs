@@ -285,6 +285,11 @@ pub struct Material {
     pub rolling_resistance: Option<Length>,
     /// Drilling friction: torque about the normal over the normal force. The values of two surfaces add up.
     pub spin_resistance: Option<Length>,
+    /// Makes it a tyre: its friction grows with the slip (slip over rolling speed; sideways the tangent of the slip angle)
+    /// and is full at this one, as in the brush model. 0.1 is a racing tyre, 0.3 a soft one. Without it a surface sticks
+    /// until its friction is full.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub full_slip: Option<f64>,
 }
 
 /// Override of the combine rule (geometric mean; resistances add) for one pair of materials.
