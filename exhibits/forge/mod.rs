@@ -25,6 +25,7 @@ pub mod marionette;
 pub mod moving_path;
 pub mod noise_mobile;
 pub mod pendulum;
+pub mod pennant;
 pub mod plates;
 pub mod scratch_board;
 pub mod sloped_bed;
@@ -70,6 +71,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "noise-mobile/noise-mobile.glb", bytes: noise_mobile::glb().1 },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
+        Artifact { path: "pennant/pennant.glb", bytes: pennant::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
         Artifact { path: "terry-clock/terry-clock.glb", bytes: terry_clock::glb() },
         Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },

@@ -9,6 +9,7 @@ mod combinations;
 mod forces;
 mod function;
 mod joints;
+mod sheet;
 mod surfaces;
 mod texts;
 mod timing;
@@ -26,6 +27,7 @@ pub use combinations::*;
 pub use forces::*;
 pub use function::*;
 pub use joints::*;
+pub use sheet::*;
 pub use surfaces::*;
 pub use texts::*;
 pub use timing::*;
@@ -68,6 +70,9 @@ pub struct Sidecar {
     /// Wires and cords.
     #[serde(default)]
     pub wire: Vec<Wire>,
+    /// Thin sheets that bend: cloth.
+    #[serde(default)]
+    pub sheet: Vec<Sheet>,
     /// Joints, one array for each kind.
     #[serde(default)]
     pub constraint: Constraints,
