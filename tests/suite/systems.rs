@@ -2,7 +2,7 @@
 
 use soffio_exhibit::{self as exhibit, Exhibit, Motion, SoundTrigger};
 use soffio_geometry::support::Core;
-use soffio_multibody::articulation::{Constraint, ConstraintKind, LimitKind, Measure, SpringKind, Trigger};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, LimitKind, Measure, Spring, SpringKind, Trigger};
 use soffio_wind::ambient::WindKind;
 use soffio_wind::breath::SpreadLaw;
 
@@ -116,6 +116,11 @@ const SYSTEMS: &[System] = &[
     // 3: position-based motion, pointer grabs, balls
     ("choice of the solver while it runs", |e| matches!(e.motion, Motion::Auto { .. })),
     ("taken by the hand", |e| e.touch.permitted && e.bodies.len() > 10),
+    ("tyres that grip and drift", |e| e.materials.iter().any(|m| m.full_slip > 0.0) && combined(e, [1, 2, 0])),
+    ("cloth that shears and bends", |e| {
+        let seams = |s: &&Spring| matches!(s.kind, SpringKind::Angular { measure: Measure::Displacement { .. } });
+        e.springs.iter().filter(seams).count() > 10 && e.model.skins.iter().any(|skin| skin.joints.len() > 10)
+    }),
     ("rolling and sliding balls", |e| {
         shape(e, |s| matches!(s, Core::Point)) && e.materials.iter().any(|m| m.resistance.rolling > 0.0)
     }),
@@ -176,6 +181,8 @@ fn each_small_exhibit_shows_what_its_label_says() {
         ("strikers", "spring and damper, angular"),
         ("marionette", "taken by the hand"),
         ("billiards", "rolling and sliding balls"),
+        ("cart", "tyres that grip and drift"),
+        ("pennant", "cloth that shears and bends"),
         ("scratch-board", "scratching wood"),
         ("hang-it", "point on plane"),
         ("windy-corner", "fan"),
