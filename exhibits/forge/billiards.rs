@@ -3,21 +3,18 @@
 use soffio_math::{DQuat, DVec2, DVec3, PI, Pose, cos, rotation, sin};
 
 use soffio_authoring::glb::{Finish, Scene};
-use soffio_authoring::outline::Polygon;
 use soffio_authoring::piece::Piece;
 use soffio_authoring::solid::{Solid, extrude, revolve, revolve_ring};
 use soffio_authoring::stock_parts::{MM, WOOD, finishes, part, rod};
+
+use crate::sloped_bed::SlopedBed;
 
 /// Radius of a ball, m, as in the sidecar: that of table tennis, whose celluloid shell it has.
 const RADIUS: f64 = 20.0 * MM;
 /// Segments of a ball's outline: edges of 3.5 mm, chosen by eye.
 const AROUND: usize = 36;
-/// Half lengths of the field between the cushions along x and z, m.
-const FIELD: DVec2 = DVec2::new(240.0 * MM, 150.0 * MM);
-/// Height of the bed's centre above the floor, m.
-const BED: f64 = 64.0 * MM;
-/// Height of the bed's edge above its centre, m: enough that balls roll back.
-const RISE: f64 = 3.0 * MM;
+/// The bed between the cushions; its edge is high enough that balls roll back.
+const BED: SlopedBed = SlopedBed { half: DVec2::new(240.0 * MM, 150.0 * MM), height: 64.0 * MM, rise: 3.0 * MM };
 /// Balls, their stripes, and their start positions (x and z).
 const BALLS: [([&str; 2], [f64; 2]); 7] = [
     (["Ball1", "Stripe1"], [-155.0, 55.0]),
@@ -28,12 +25,12 @@ const BALLS: [([&str; 2], [f64; 2]); 7] = [
     (["Ball6", "Stripe6"], [55.0, -100.0]),
     (["Ball7", "Stripe7"], [175.0, 45.0]),
 ];
-/// Planes of the sidecar: the four slopes of the bed and the four cushions, each with its outward direction.
-const PLANES: [([&str; 2], DVec2); 4] = [
-    (["BedLeft", "CushionLeft"], DVec2::new(-1.0, 0.0)),
-    (["BedRight", "CushionRight"], DVec2::new(1.0, 0.0)),
-    (["BedBack", "CushionBack"], DVec2::new(0.0, -1.0)),
-    (["BedFront", "CushionFront"], DVec2::new(0.0, 1.0)),
+/// Planes of the sidecar: the four slopes of the bed and the four cushions.
+const PLANES: [[&str; 2]; 4] = [
+    ["BedLeft", "CushionLeft"],
+    ["BedRight", "CushionRight"],
+    ["BedBack", "CushionBack"],
+    ["BedFront", "CushionFront"],
 ];
 
 /// The model.
@@ -46,31 +43,28 @@ pub fn glb() -> Vec<u8> {
     let rubber = add("Dark green cloth", [0.012, 0.10, 0.045], 0.9);
     let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
     let flat = rotation(-0.5 * PI * DVec3::X);
-    let frame = |inner: f64, outer: f64, height: f64| extrude(&field(outer), &[field(inner)], height, 1.5 * MM);
-    let leg = |x: f64, z: f64| DVec3::new(x * (FIELD.x + 20.0 * MM), 0.0, z * (FIELD.y + 20.0 * MM));
+    let frame =
+        |inner: f64, outer: f64, height: f64| extrude(&BED.rectangle(outer), &[BED.rectangle(inner)], height, 1.5 * MM);
+    let leg = |x: f64, z: f64| DVec3::new(x * (BED.half.x + 20.0 * MM), 0.0, z * (BED.half.y + 20.0 * MM));
     let mut parts = vec![
-        part("Bed", bed(), none, upright, WOOD, cloth),
-        part("Cushions", frame(0.0, 14.0 * MM, 28.0 * MM), (BED + 14.0 * MM) * DVec3::Y, flat, WOOD, rubber),
+        part("Bed", BED.solid(20.0 * MM), none, upright, WOOD, cloth),
+        part("Cushions", frame(0.0, 14.0 * MM, 28.0 * MM), (BED.height + 14.0 * MM) * DVec3::Y, flat, WOOD, rubber),
         part(
             "Rails",
             frame(12.0 * MM, 46.0 * MM, 62.0 * MM),
-            (BED + 3.0 * MM) * DVec3::Y,
+            (BED.height + 3.0 * MM) * DVec3::Y,
             flat,
             WOOD,
             stock_parts.wood,
         ),
     ];
     for (name, x, z) in [("Leg1", -1.0, -1.0), ("Leg2", 1.0, -1.0), ("Leg3", -1.0, 1.0), ("Leg4", 1.0, 1.0)] {
-        parts.push(part(name, rod(11.0 * MM, 0.0, BED - 26.0 * MM), leg(x, z), upright, WOOD, stock_parts.wood));
+        parts.push(part(name, rod(11.0 * MM, 0.0, BED.height - 26.0 * MM), leg(x, z), upright, WOOD, stock_parts.wood));
     }
     let table = Piece { name: "Table", parts, wires: Vec::new(), markers: Vec::new() };
     table.write(&mut scene, Pose::IDENTITY);
 
-    for ([slope, cushion], out) in PLANES {
-        let wall = DVec3::new(out.x * FIELD.x, BED + RISE, out.y * FIELD.y);
-        scene.node(slope, None, BED * DVec3::Y, y_to_z(slope_normal(out)));
-        scene.node(cushion, None, wall, y_to_z(-DVec3::new(out.x, 0.0, out.y)));
-    }
+    BED.write_planes(&mut scene, PLANES);
     let colors = [
         stock_parts.red,
         stock_parts.blue,
@@ -93,57 +87,14 @@ pub fn glb() -> Vec<u8> {
         let turn = rotation(DVec3::new(0.9 + 0.5 * k as f64, 0.7 * k as f64, 0.4));
         ball.write(&mut scene, Pose { rotation: turn, position: resting(DVec2::from(at) * MM) });
     }
-    let (eye, target) = (DVec3::new(0.06, 0.62, 0.78), DVec3::new(0.0, BED, 0.01));
+    let (eye, target) = (DVec3::new(0.06, 0.62, 0.78), DVec3::new(0.0, BED.height, 0.01));
     scene.camera("CamFront", eye, target, 27.0 * PI / 180.0, 16.0 / 9.0);
     scene.into_glb("Billiards", "Original work of the Soffio project; MIT OR Apache-2.0")
 }
 
-/// The rectangle of the field, its sides moved outwards.
-fn field(out: f64) -> Polygon {
-    let (x, y) = (FIELD.x + out, FIELD.y + out);
-    [(-x, -y), (x, -y), (x, y), (-x, y)].map(|(x, y)| DVec2::new(x, y)).into()
-}
-
-/// Normal of the slope of the bed on the side `out`.
-fn slope_normal(out: DVec2) -> DVec3 {
-    DVec3::new(-out.x * RISE / FIELD.x, 1.0, -out.y * RISE / FIELD.y).normalize()
-}
-
-/// The shortest rotation from Y to a unit vector.
-fn y_to_z(normal: DVec3) -> DQuat {
-    DQuat::from_rotation_arc(DVec3::Y, normal)
-}
-
 /// Centre of a ball on the bed.
 fn resting(at: DVec2) -> DVec3 {
-    let above = |out: DVec2| {
-        let n = slope_normal(out);
-        BED + (RADIUS - n.x * at.x - n.z * at.y) / n.y
-    };
-    let height = PLANES.iter().map(|(_, out)| above(*out)).fold(0.0, f64::max);
-    DVec3::new(at.x, height, at.y)
-}
-
-/// The bed: four slopes that meet in the middle, 20 mm thick at the edge.
-fn bed() -> Solid {
-    let mut solid = Solid::default();
-    let corner = |x: f64, z: f64, y: f64| DVec3::new(x * FIELD.x, y, z * FIELD.y);
-    let ring = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)];
-    let mut face = |corners: &[DVec3]| {
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
-        let base = solid.positions.len() as u32;
-        solid.positions.extend(corners);
-        solid.normals.extend(corners.iter().map(|_| normal));
-        solid.triangles.extend((2..corners.len() as u32).map(|k| [base, base + k - 1, base + k]));
-    };
-    let (top, bottom) = (BED + RISE, BED + RISE - 20.0 * MM);
-    for k in 0..4 {
-        let ((x, z), (u, w)) = (ring[k], ring[(k + 1) % 4]);
-        face(&[corner(x, z, top), corner(u, w, top), BED * DVec3::Y]);
-        face(&[corner(x, z, bottom), corner(u, w, bottom), corner(u, w, top), corner(x, z, top)]);
-    }
-    face(&[3, 2, 1, 0].map(|k: usize| corner(ring[k].0, ring[k].1, bottom)));
-    solid
+    DVec3::new(at.x, BED.above(at, RADIUS), at.y)
 }
 
 /// A point of a circle about the origin, `angle` above the equator.

@@ -15,6 +15,7 @@ pub mod blown_together;
 pub mod breaking_chain;
 pub mod breath_clock;
 pub mod breaths;
+pub mod cart;
 pub mod chains;
 pub mod gear_train;
 pub mod hang_it;
@@ -24,8 +25,10 @@ pub mod marionette;
 pub mod moving_path;
 pub mod noise_mobile;
 pub mod pendulum;
+pub mod pennant;
 pub mod plates;
 pub mod scratch_board;
+pub mod sloped_bed;
 pub mod snow;
 pub mod steel_fish;
 pub mod strikers;
@@ -59,6 +62,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "billiards/billiards.glb", bytes: billiards::glb() },
         Artifact { path: "breaking-chain/breaking-chain.glb", bytes: breaking_chain::glb() },
         Artifact { path: "breath-clock/breath-clock.glb", bytes: breath_clock::glb() },
+        Artifact { path: "cart/cart.glb", bytes: cart::glb() },
         Artifact { path: "chain-heavy/chain-heavy.glb", bytes: chains::heavy_glb() },
         Artifact { path: "chain-light/chain-light.glb", bytes: chains::light_glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
@@ -67,6 +71,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "noise-mobile/noise-mobile.glb", bytes: noise_mobile::glb().1 },
         Artifact { path: "pendulum/pendulum.glb", bytes: pendulum::glb() },
+        Artifact { path: "pennant/pennant.glb", bytes: pennant::glb() },
         Artifact { path: "plates/plates.glb", bytes: plates::glb().1 },
         Artifact { path: "terry-clock/terry-clock.glb", bytes: terry_clock::glb() },
         Artifact { path: "snow/snow.glb", bytes: snow::glb().1 },

@@ -10,9 +10,10 @@ use serde_json::{Value, json};
 
 use super::solid::Solid;
 use crate::model_writer::container;
-use soffio_math::{DQuat, DVec3};
+use soffio_math::{DQuat, DVec3, Pose};
 
 const FLOAT: u32 = 5126;
+const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
@@ -65,6 +66,7 @@ pub struct Scene {
     roots: Vec<usize>,
     meshes: Vec<Value>,
     materials: Vec<Value>,
+    skins: Vec<Value>,
     cameras: Vec<Value>,
     accessors: Vec<Value>,
     views: Vec<Value>,
@@ -143,6 +145,38 @@ impl Scene {
         Ok(())
     }
 
+    /// Draws both sides of a finish: of cloth, which has no thickness in the model.
+    pub fn two_sided(&mut self, finish: usize) {
+        self.materials[finish]["doubleSided"] = json!(true);
+    }
+
+    /// Gives `node` the mesh of `solid` with a finish, as a skin: each vertex follows up to four of the joints by its weights
+    /// (index of the joint, share). The joints are nodes, each with its pose in the model, which is the skin's too.
+    pub fn skin(
+        &mut self,
+        node: usize,
+        solid: &Solid,
+        finish: usize,
+        weights: &[[(u16, f64); 4]],
+        joints: &[(usize, Pose)],
+    ) {
+        self.mesh(node, solid, finish);
+        let indices: Vec<[u16; 4]> = weights.iter().map(|vertex| vertex.map(|(joint, _)| joint)).collect();
+        let shares: Vec<[f32; 4]> = weights.iter().map(|vertex| vertex.map(|(_, share)| share as f32)).collect();
+        let to_joint = |(_, pose): &(usize, Pose)| pose.matrix().inverse().as_mat4().to_cols_array();
+        let bind: Vec<[f32; 16]> = joints.iter().map(to_joint).collect();
+        let index = self.accessor(bytemuck::cast_slice(&indices), UNSIGNED_SHORT, "VEC4", indices.len(), ARRAY_BUFFER);
+        let share = self.accessor(bytemuck::cast_slice(&shares), FLOAT, "VEC4", shares.len(), ARRAY_BUFFER);
+        let bind = self.accessor(bytemuck::cast_slice(&bind), FLOAT, "MAT4", bind.len(), 0);
+        if let Some(mesh) = self.meshes.last_mut() {
+            mesh["primitives"][0]["attributes"]["JOINTS_0"] = json!(index);
+            mesh["primitives"][0]["attributes"]["WEIGHTS_0"] = json!(share);
+        }
+        self.nodes[node]["skin"] = json!(self.skins.len());
+        let nodes: Vec<usize> = joints.iter().map(|(joint, _)| *joint).collect();
+        self.skins.push(json!({ "joints": nodes, "inverseBindMatrices": bind }));
+    }
+
     /// Gives `node` the mesh of `solid` with a finish.
     pub fn mesh(&mut self, node: usize, solid: &Solid, finish: usize) {
         let single = |v: &DVec3| v.as_vec3().to_array();
@@ -195,9 +229,12 @@ impl Scene {
 
     fn accessor(&mut self, bytes: &[u8], component: u32, shape: &str, count: usize, target: u32) -> usize {
         // Every element here is a multiple of four bytes, so the views stay aligned as the accessors need.
-        self.views.push(json!({
-            "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len(), "target": target,
-        }));
+        let mut view = json!({ "buffer": 0, "byteOffset": self.binary.len(), "byteLength": bytes.len() });
+        // Only vertices and indices have a target.
+        if target != 0 {
+            view["target"] = json!(target);
+        }
+        self.views.push(view);
         self.binary.extend_from_slice(bytes);
         self.accessors.push(json!({
             "bufferView": self.views.len() - 1, "componentType": component, "count": count, "type": shape,
@@ -228,6 +265,9 @@ impl Scene {
             let textures: Vec<Value> = (0..self.images.len()).map(|source| json!({ "source": source })).collect();
             document["textures"] = json!(textures);
             document["images"] = json!(self.images);
+        }
+        if !self.skins.is_empty() {
+            document["skins"] = json!(self.skins);
         }
         let mut used: Vec<&String> =
             self.materials.iter().filter_map(|m| m["extensions"].as_object()).flat_map(|e| e.keys()).collect();

@@ -22,7 +22,7 @@ impl SolverArg {
     /// Why an exhibit cannot move by this solver; `None` where it can.
     pub fn refusal(self, exhibit: &Exhibit) -> Option<String> {
         let by_positions = matches!(self, Self::Procedural | Self::PositionBased);
-        let why = Motion::refusal(&exhibit.constraints).filter(|_| by_positions)?;
+        let why = Motion::refusal(&exhibit.constraints, &exhibit.springs).filter(|_| by_positions)?;
         Some(format!("{} moves by dynamics alone: {why}", exhibit.id))
     }
 

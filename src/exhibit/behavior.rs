@@ -1,7 +1,7 @@
 //! How an exhibit moves, responds to breath and touch, and sounds.
 
 use soffio_math::{DVec3, Function};
-use soffio_multibody::articulation::{Constraint, ConstraintKind};
+use soffio_multibody::articulation::{Constraint, ConstraintKind, Measure, Spring, SpringKind};
 use soffio_multibody::procedural::PositionSolver;
 use soffio_wind::breath::SpreadLaw;
 use soffio_wind::force::TURBULENCE;
@@ -21,10 +21,15 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// Why constraints such as these move by dynamics alone, and not by positions; `None` where they move by both.
-    pub fn refusal(constraints: &[Constraint]) -> Option<&'static str> {
+    /// Why constraints and springs such as these move by dynamics alone, and not by positions; `None` where they move by both.
+    pub fn refusal(constraints: &[Constraint], springs: &[Spring]) -> Option<&'static str> {
         if constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::Coupling { .. })) {
             return Some("its gears pass on forces, which position-based motion does not know");
+        }
+        let seam =
+            |spring: &Spring| matches!(spring.kind, SpringKind::Angular { measure: Measure::Displacement { .. } });
+        if springs.iter().any(seam) {
+            return Some("the seams of its sheets swing faster than a position-based step can follow");
         }
         let breaks = constraints.iter().any(|constraint| constraint.breaking.is_some());
         breaks.then_some("it breaks under load, which position-based motion does not know")

@@ -24,6 +24,8 @@ pub struct Material {
     pub poisson: f64,
     /// Loss factor η of the mounted part, dimensionless.
     pub loss_factor: f64,
+    /// Of a tyre: slip over rolling speed from which it slides entirely; 0 of all else.
+    pub full_slip: f64,
     /// The surface's contribution to rolling and spinning resistance of a contact.
     pub resistance: RollingResistance,
 }

@@ -119,7 +119,8 @@ impl Exhibit {
     }
 
     /// Contact properties of two colliders. Restitution and sliding friction are those of the material pair, or the
-    /// geometric mean of both materials. Resistances are those of the pair, or the sum of both.
+    /// geometric mean of both materials. Resistances are those of the pair, or the sum of both. The
+    /// slip of a tyre is the greater one: of a tyre and a floor, the tyre's.
     pub fn surface_pair(&self, pair: ColliderPair) -> SurfacePair {
         let [a, b] = [pair.a, pair.b].map(|collider| self.colliders[collider].material);
         let (x, y) = (&self.materials[a], &self.materials[b]);
@@ -131,7 +132,7 @@ impl Exhibit {
             rolling: own.and_then(|p| p.rolling_resistance).unwrap_or(r.rolling + s.rolling),
             spinning: own.and_then(|p| p.spin_resistance).unwrap_or(r.spinning + s.spinning),
         };
-        SurfacePair { pair, restitution, friction, resistance }
+        SurfacePair { pair, restitution, friction, full_slip: x.full_slip.max(y.full_slip), resistance }
     }
 }
 

@@ -48,6 +48,7 @@ pub fn builtin(name: &str) -> Option<Material> {
         youngs_modulus: gigapascals * 1e9,
         poisson,
         loss_factor,
+        full_slip: 0.0,
         resistance: RollingResistance::default(),
     })
 }

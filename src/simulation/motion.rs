@@ -56,7 +56,7 @@ impl Motion {
             dynamics,
             pointer_grabs: PointerGrabs::new(exhibit),
             mode: MotionMode::of(exhibit),
-            dynamics_only: exhibit::Motion::refusal(&exhibit.constraints).is_some(),
+            dynamics_only: exhibit::Motion::refusal(&exhibit.constraints, &exhibit.springs).is_some(),
             assembly: None,
             idle_damping: IdleDamping::default(),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],

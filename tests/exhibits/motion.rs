@@ -124,7 +124,7 @@ pub fn the_mode_is_an_input_so_a_replay_repeats_it(id: &str) {
     };
     let first = run(50);
     assert_eq!(first, run(50), "{id}");
-    if Motion::refusal(&exhibit.constraints).is_some() {
+    if Motion::refusal(&exhibit.constraints, &exhibit.springs).is_some() {
         assert_eq!(first, run(70), "{id} moves by dynamics, whatever is asked");
     } else {
         assert_ne!(first, run(70), "{id}: another order of modes gives the same state");

@@ -20,7 +20,7 @@ const ASPECT: f64 = 16.0 / 9.0;
 const G: f64 = 9.81;
 /// A child's breath at the lips: 0.3 L/s through 10 mm, m/s.
 const CHILD: f64 = 3.82;
-const NEW: [&str; 8] = [
+const NEW: [&str; 10] = [
     "strikers",
     "scratch-board",
     "blown-together",
@@ -29,6 +29,8 @@ const NEW: [&str; 8] = [
     "moving-path",
     "hang-it",
     "breath-clock",
+    "cart",
+    "pennant",
 ];
 
 fn load(id: &str) -> Arc<Exhibit> {
@@ -128,6 +130,8 @@ fn a_childs_breath_moves_what_it_is_aimed_at_by_fifteen_millimetres_within_a_sec
         ("hang-it", "PlateRight"),
         ("breath-clock", "Sail1"),
         ("blown-together", "Bead5Ball"),
+        ("cart", "Sail"),
+        ("pennant", "Silk.6.2"),
     ] {
         let [mut blown, mut left] = [(); 2].map(|()| Visit::new(id, Settings::default()));
         [&mut blown, &mut left].into_iter().for_each(|visit| visit.run(1.0));

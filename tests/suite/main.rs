@@ -5,9 +5,11 @@ mod assembly;
 mod breath_command;
 mod budget;
 mod cabinet;
+mod cart;
 mod chimes;
 mod cli;
 mod clock;
+mod cloth;
 mod curator;
 #[cfg(feature = "kiosk")]
 mod details;

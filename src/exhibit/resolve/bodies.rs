@@ -91,8 +91,10 @@ impl Context<'_> {
             seen.push(node);
             declared.push(Declared::Path);
         }
-        if declared.len() > MAX_BODIES {
-            let message = format!("{} moving bodies; the limit is {MAX_BODIES}", declared.len());
+        self.declare_sheets();
+        seen.extend_from_slice(&self.body_nodes[declared.len()..]);
+        if self.body_nodes.len() > MAX_BODIES {
+            let message = format!("{} moving bodies; the limit is {MAX_BODIES}", self.body_nodes.len());
             let problem = Diagnostic::new(codes::MODEL_LIMIT, message);
             self.report("/body", problem.help("join bodies that do not move against each other"));
         }
@@ -158,6 +160,7 @@ impl Context<'_> {
                 material: material.unwrap_or(0),
             });
         }
+        bodies.extend(self.sheet_bodies());
         bodies
     }
 

@@ -11,6 +11,7 @@ use super::super::own_timbres::OwnTimbres;
 use super::super::paths::SIDECAR;
 use super::super::sidecar::Sidecar;
 use super::super::source::SidecarText;
+use super::sheets::SheetGrid;
 use soffio_math::Pose;
 use soffio_multibody::dynamics::KinematicBody;
 
@@ -37,6 +38,8 @@ pub(super) struct Context<'a> {
     pub(super) drives: Vec<KinematicBody>,
     /// Kinematic body, index of the animation that it follows, and whether that repeats.
     pub(super) followed: Vec<(usize, usize, bool)>,
+    /// Sheets of cells.
+    pub(super) sheets: Vec<SheetGrid>,
     /// Body that each node belongs to.
     pub(super) owner: Vec<Option<usize>>,
 }
@@ -68,6 +71,7 @@ impl<'a> Context<'a> {
             starts: Vec::new(),
             drives: Vec::new(),
             followed: Vec::new(),
+            sheets: Vec::new(),
             owner: vec![None; model.nodes.len()],
         }
     }

@@ -22,6 +22,7 @@ impl Context<'_> {
                 youngs_modulus: 0.0,
                 poisson: 0.3,
                 loss_factor: 0.01,
+                full_slip: 0.0,
                 resistance: RollingResistance::default(),
             });
             let [rolling, spinning] =
@@ -35,6 +36,7 @@ impl Context<'_> {
                 youngs_modulus: given.youngs_modulus.map_or(default.youngs_modulus, |v| v.0),
                 poisson: given.poisson.unwrap_or(default.poisson),
                 loss_factor: given.loss_factor.unwrap_or(default.loss_factor),
+                full_slip: given.full_slip.unwrap_or(default.full_slip),
                 resistance: RollingResistance { rolling, spinning },
             };
             for (key, value) in [("density", material.density), ("youngs_modulus", material.youngs_modulus)] {
@@ -68,6 +70,7 @@ impl Context<'_> {
             ("youngs_modulus", format!("{} GPa", material.youngs_modulus / 1e9)),
             ("poisson", material.poisson.to_string()),
             ("loss_factor", material.loss_factor.to_string()),
+            ("full_slip", material.full_slip.to_string()),
             ("rolling_resistance", format!("{} mm", 1e3 * material.resistance.rolling)),
             ("spin_resistance", format!("{} mm", 1e3 * material.resistance.spinning)),
         ] {

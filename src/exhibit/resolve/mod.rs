@@ -15,6 +15,7 @@ mod motion;
 mod nail_paths;
 mod nodes;
 mod picture;
+mod sheets;
 mod sounds;
 mod surfaces;
 mod texts;
@@ -38,7 +39,7 @@ use super::{codes, paths, schema};
 use context::Context;
 use nail_paths::add_path_nodes;
 use soffio_math::DVec3;
-use soffio_multibody::articulation::Constraint;
+use soffio_multibody::articulation::{Constraint, Spring};
 use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_multibody::procedural::PositionSolver;
 use sounds::Sounding;
@@ -205,7 +206,7 @@ impl Context<'_> {
         self.check_mass_ratios(&constraints, &bodies, &drives);
         let excluded_pairs = self.excluded_pairs(&constraints, &limits);
         let colliders = self.colliders(&wires);
-        let motion = self.motion(&constraints);
+        let motion = self.motion(&constraints, &springs);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
         let shelters = self.shelters(&wind_surfaces);
@@ -302,7 +303,7 @@ impl Context<'_> {
     }
 
     /// Motion mode.
-    fn motion(&mut self, constraints: &[Constraint]) -> Motion {
+    fn motion(&mut self, constraints: &[Constraint], springs: &[Spring]) -> Motion {
         let given = &self.sidecar.solver;
         let budget = given.budget.map_or(BUDGET, |time| time.0);
         let budget = self.positive(budget, "/solver/budget");
@@ -317,7 +318,7 @@ impl Context<'_> {
             self.report("/solver/budget", problem.help("leave it out, or write motion = \"auto\""));
         }
         if let Motion::PositionBased(_) = motion
-            && let Some(why) = Motion::refusal(constraints)
+            && let Some(why) = Motion::refusal(constraints, springs)
         {
             let problem = Diagnostic::new(codes::DYNAMICS_ONLY, format!("this exhibit moves by dynamics alone: {why}"));
             self.report("/solver/motion", problem.help("write motion = \"dynamics\" or \"auto\""));

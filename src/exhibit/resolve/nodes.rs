@@ -112,8 +112,8 @@ impl Context<'_> {
             };
             let known = model.nodes.iter().map(|node| node.name.as_str());
             let help = match similar_names(start, known).as_slice() {
-                [] => "a wire needs at least two points".to_owned(),
-                names => format!("a wire needs at least two points; similar names: {}", quoted(names)),
+                [] => "at least two are needed".to_owned(),
+                names => format!("at least two are needed; similar names: {}", quoted(names)),
             };
             self.report(
                 at,
@@ -218,6 +218,9 @@ impl Context<'_> {
 
     /// The mesh of one node in the frame of its body; `None` where it has none.
     pub(super) fn node_mesh(&self, node: usize) -> Option<TriangleMesh> {
+        if let Some(cell) = self.cell_at(node) {
+            return Some(cell);
+        }
         let mesh = &self.model.meshes[self.model.nodes[node].mesh?];
         let frame = self.pose_of(self.owner[node]).matrix().inverse() * self.model.nodes[node].world;
         let mirrored = DMat3::from_mat4(frame).determinant() < 0.0;

@@ -25,6 +25,7 @@ impl Context<'_> {
         for (i, given) in sidecar.wind_surface.iter().enumerate() {
             out.extend(self.wind_surface(given, &format!("/wind_surface/{i}")));
         }
+        out.extend(self.sheet_surfaces());
         for wire in wires {
             let feels = sidecar.wire.iter().any(|given| given.name == wire.name && given.wind);
             if let (Some(body), true) = (wire.body, feels) {

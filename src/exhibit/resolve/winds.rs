@@ -214,6 +214,10 @@ impl Context<'_> {
             let own = surfaces.iter().filter(|surface| surface.node == given.node && given.shadow && !opened[root]);
             shelters.extend(Shelter::of(own.cloned().collect::<Vec<_>>().as_slice()));
         }
+        // A skin lies where its joints carry it; the surfaces of those bodies give shelter.
+        for skin in &self.model.skins {
+            taken[skin.node] |= skin.joints.iter().any(|&joint| self.owner[joint].is_some());
+        }
         for owner in std::iter::once(None).chain((0..self.body_nodes.len()).map(Some)) {
             let mut mesh = TriangleMesh::default();
             for node in 0..taken.len() {

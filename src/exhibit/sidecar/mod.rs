@@ -9,6 +9,7 @@ mod combinations;
 mod forces;
 mod function;
 mod joints;
+mod sheet;
 mod surfaces;
 mod texts;
 mod timing;
@@ -26,6 +27,7 @@ pub use combinations::*;
 pub use forces::*;
 pub use function::*;
 pub use joints::*;
+pub use sheet::*;
 pub use surfaces::*;
 pub use texts::*;
 pub use timing::*;
@@ -71,6 +73,9 @@ pub struct Sidecar {
     /// Cords that are drawn from body to body.
     #[serde(default)]
     pub cord: Vec<Cord>,
+    /// Thin sheets that bend: cloth.
+    #[serde(default)]
+    pub sheet: Vec<Sheet>,
     /// Joints, one array for each kind.
     #[serde(default)]
     pub constraint: Constraints,
@@ -288,6 +293,11 @@ pub struct Material {
     pub rolling_resistance: Option<Length>,
     /// Drilling friction: torque about the normal over the normal force. The values of two surfaces add up.
     pub spin_resistance: Option<Length>,
+    /// Makes it a tyre: its friction grows with the slip (slip over rolling speed; sideways the tangent of the slip angle)
+    /// and is full at this one, as in the brush model. 0.1 is a racing tyre, 0.3 a soft one. Without it a surface sticks
+    /// until its friction is full.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub full_slip: Option<f64>,
 }
 
 /// Override of the combine rule (geometric mean; resistances add) for one pair of materials.

@@ -251,8 +251,13 @@ mod tests {
         let far = Shape::plane(DVec3::Y * -100.0, DVec3::Y);
         let collider = |body, shape| Collider { body, shape, material: 0, node: String::new() };
         let colliders = [collider(Some(0), Shape::sphere(DVec3::ZERO, 1e-3)), collider(None, far)];
-        let surface =
-            |pair| SurfacePair { pair, restitution: 0.0, friction: 0.0, resistance: RollingResistance::default() };
+        let surface = |pair| SurfacePair {
+            pair,
+            restitution: 0.0,
+            friction: 0.0,
+            full_slip: 0.0,
+            resistance: RollingResistance::default(),
+        };
         let settings = Settings {
             gravity: DVec3::Y * -gravity,
             friction: false,

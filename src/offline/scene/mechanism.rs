@@ -103,7 +103,7 @@ impl PhysicsScene {
         meet.map(|pair| {
             let [a, b] = [pair.a, pair.b].map(|collider| material(colliders[collider].material));
             let PairProperties { restitution, friction, resistance } = a.with(&b);
-            SurfacePair { pair, restitution, friction, resistance }
+            SurfacePair { pair, restitution, friction, full_slip: 0.0, resistance }
         })
         .collect()
     }

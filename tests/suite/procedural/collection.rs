@@ -86,7 +86,7 @@ fn every_exhibit_moves_by_every_solver_or_says_why_not() {
     let problems: Vec<Vec<String>> = parallel(names, |name| {
         let folder = exhibit::resolve(&name).unwrap_or_else(|report| panic!("{report}"));
         let exhibit = Arc::new(exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text())));
-        if Motion::refusal(&exhibit.constraints).is_some() {
+        if Motion::refusal(&exhibit.constraints, &exhibit.springs).is_some() {
             return Vec::new();
         }
         let mut problems = Vec::new();
@@ -121,7 +121,7 @@ fn gears_and_breaking_are_refused_with_the_reason() {
         .filter_map(|name| {
             let folder = exhibit::resolve(&name).unwrap_or_else(|report| panic!("{report}"));
             let exhibit = exhibit::load(&folder).unwrap_or_else(|report| panic!("{}", report.to_text()));
-            Some((name, Motion::refusal(&exhibit.constraints)?))
+            Some((name, Motion::refusal(&exhibit.constraints, &exhibit.springs)?))
         })
         .collect();
     let names: Vec<&str> = refused.iter().map(|(name, _)| name.as_str()).collect();

@@ -14,6 +14,7 @@ pub(super) mod pairs;
 mod points;
 mod rank;
 mod schedule;
+mod sheets;
 mod springs;
 
 use super::super::codes;
@@ -80,6 +81,7 @@ impl Context<'_> {
         self.each("limit", &given.limit, &mut out, Self::bounds);
         self.each("spring", &given.spring, &mut out, Self::spring);
         self.each("torsion-spring", &given.torsion_spring, &mut out, Self::torsion_spring);
+        self.join_sheets(&mut out);
         let acts = |name: &str| !out.disabled.iter().any(|disabled| disabled == name);
         out.constraints.retain(|constraint| acts(constraint.group()));
         out.limits.retain(|limit| acts(&limit.name));
@@ -269,7 +271,8 @@ impl Context<'_> {
                 return format!("/constraint/{kind}/{index}");
             }
         }
-        "/constraint".to_owned()
+        let sheet = self.sidecar.sheet.iter().position(|sheet| sheet.name == name);
+        sheet.map_or_else(|| "/constraint".to_owned(), |entry| format!("/sheet/{entry}"))
     }
 }
 

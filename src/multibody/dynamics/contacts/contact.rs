@@ -71,6 +71,8 @@ pub(super) enum ContactKind {
         pair: usize,
         /// Coulomb coefficient.
         friction: f64,
+        /// Of a tyre that rolls: slip velocity from which it slides entirely, m/s; else 0.
+        full_slip: f64,
     },
     /// A bound of a joint limit: one row.
     Limit {

@@ -5,6 +5,7 @@
 //! ```text
 //! unilateral  0 ≤ P ⟂ u ≥ 0                                       no pull, no approach, no push where it opens
 //! Coulomb     the same of the normal; |P_T| ≤ μ P_n, P_T = −μ P_n u_T/|u_T| where it slides
+//! tyre        the same of the normal; P_T = −μ P_n g(|u_T|/c) u_T/|u_T|   see `tyre.rs`
 //! friction    |P_T| ≤ m, P_T = −m u_T/|u_T| where it slides        of an impact whose normal impulse is known
 //! rolling     |C_n| ≤ d N, |C_T| ≤ b N likewise                   N the normal impulse of its point (`rolling_resistance.rs`)
 //! clutch      P = −τ h (sign u + u/ω₁), or u = 0 at |P| ≤ τ h     see `dynamics/clutches.rs`
@@ -22,6 +23,7 @@
 //! Hence D = −∂P⁺/∂u is not symmetric. A rolling resistance at its bound follows the normal impulse of its point likewise.
 
 use super::contact::{Contact, ContactKind, LOCKED, RollingResistance, VISCOUS_SLIP};
+use super::tyre;
 use soffio_math::{DMat2, DMat3, DVec2, DVec3};
 
 /// Friction within this share of its bound counts as sliding.
@@ -39,6 +41,13 @@ pub(super) enum ContactLaw {
     Coulomb {
         /// μ.
         friction: f64,
+    },
+    /// Unilateral contact with the friction of a tyre.
+    Tyre {
+        /// μ.
+        friction: f64,
+        /// c: slip velocity from which it slides entirely, m/s.
+        full_slip: f64,
     },
     /// Friction of at most `max` (N s); the normal impulse is given.
     Friction {
@@ -87,6 +96,7 @@ impl ContactLaw {
             Self::Fixed => p,
             Self::Unilateral => DVec3::X * (p.x - u.x / k).max(0.0),
             Self::Coulomb { friction } => relax_coulomb(mass, friction, p, u),
+            Self::Tyre { friction, full_slip } => tyre::relax(mass, (friction, full_slip), p, u),
             Self::Friction { max } => {
                 let sticking = DVec2::new(p.y, p.z) - DVec2::new(u.y, u.z) / mass.tangential;
                 let tangential = sticking.clamp_length_max(max);
@@ -154,6 +164,11 @@ impl ContactLaw {
                 }
                 None => ActiveBranch::Sticks,
             },
+            Self::Tyre { .. } if to.x <= 0.0 => ActiveBranch::Slides { along: DVec3::X, turning: DMat2::ZERO },
+            Self::Tyre { friction, full_slip } => {
+                let (along, turning) = tyre::branch((friction, full_slip), to.x, slip);
+                ActiveBranch::Slides { along: DVec3::new(1.0, along.x, along.y), turning }
+            }
             Self::Friction { max } => match sliding(max) {
                 Some((e, turning)) => {
                     ActiveBranch::Given { impulse: DVec3::new(p.x, max * e.x, max * e.y), damping: join(0.0, turning) }
@@ -190,7 +205,9 @@ impl ContactLaw {
         match self {
             Self::Fixed | Self::Clutch { .. } => p,
             Self::Unilateral => DVec3::X * p.x.max(0.0),
-            Self::Coulomb { friction } => with_friction(p.x.max(0.0), p, friction * p.x.max(0.0)),
+            Self::Coulomb { friction } | Self::Tyre { friction, .. } => {
+                with_friction(p.x.max(0.0), p, friction * p.x.max(0.0))
+            }
             Self::Friction { max } => with_friction(p.x, p, max),
             Self::Rolling { arms, normal_impulse } => bounded(p, normal_impulse * arms),
         }
@@ -297,6 +314,9 @@ impl Contact {
                 ContactLaw::Clutch { max_impulse: if slips { max_impulse } else { f64::INFINITY } }
             }
             _ if self.inverse_mass.k.x_axis.x <= LOCKED => ContactLaw::Fixed,
+            ContactKind::Point { friction, full_slip, .. } if friction != 0.0 && full_slip != 0.0 => {
+                ContactLaw::Tyre { friction, full_slip }
+            }
             ContactKind::Point { friction, .. } if friction != 0.0 => ContactLaw::Coulomb { friction },
             _ => ContactLaw::Unilateral,
         }
@@ -364,7 +384,8 @@ fn project_on_cone(a: DVec3, mu: f64) -> (DVec3, DMat3) {
     (DVec3::new(normal, to.x, to.y), derivative)
 }
 
-fn outer(e: DVec2) -> DMat2 {
+/// e eᵀ.
+pub(super) fn outer(e: DVec2) -> DMat2 {
     DMat2::from_cols(e * e.x, e * e.y)
 }
 

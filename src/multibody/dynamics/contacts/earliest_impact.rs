@@ -99,8 +99,13 @@ mod tests {
         }
         let floor = Shape::plane(DVec3::ZERO, DVec3::Y);
         colliders.push(Collider { body: None, shape: floor, material: 0, node: String::new() });
-        let surface =
-            |pair| SurfacePair { pair, restitution: 0.4, friction: 0.3, resistance: RollingResistance::default() };
+        let surface = |pair| SurfacePair {
+            pair,
+            restitution: 0.4,
+            friction: 0.3,
+            full_slip: 0.0,
+            resistance: RollingResistance::default(),
+        };
         let articulation = Articulation {
             damping: vec![Damping::default(); bodies.len()],
             bodies,

@@ -13,6 +13,8 @@ pub struct SurfacePair {
     pub restitution: f64,
     /// Coulomb coefficient of friction.
     pub friction: f64,
+    /// Of a tyre: slip over rolling speed from which it slides entirely; 0 where Coulomb's law holds.
+    pub full_slip: f64,
     /// Resistance to rolling and spinning.
     pub resistance: RollingResistance,
 }

@@ -101,7 +101,7 @@ pub fn resolve_point_impact(
     let mechanisms = Mechanisms::new(system.constraints(), system.kinematic());
     let stabilization = Stabilization { rows: system.states().len(), time: STABILIZATION_TIME };
     let mut problem = ContactProblem::new(1, mechanisms, stabilization);
-    let kind = ContactKind::Point { pair: 0, friction: impact.friction };
+    let kind = ContactKind::Point { pair: 0, friction: impact.friction, full_slip: 0.0 };
     let contact = Contact::new(kind, impact.point, impact.normal, 0.0);
     problem.push(contact, &point_rows(impact.point, impact.normal, impact.bodies, bodies));
     problem.assemble(system, bodies);

@@ -34,6 +34,7 @@ mod state;
 mod surfaces;
 mod swept_contact;
 mod time_stepping;
+mod tyre;
 
 pub use contact::RollingResistance;
 pub use contact_report::ContactReport;

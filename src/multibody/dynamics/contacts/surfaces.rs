@@ -5,6 +5,7 @@ use super::contact_problem::ContactProblem;
 use super::impact::SurfacePair;
 use super::jacobian_row::point_rows;
 use super::nearby_pairs::SweptPair;
+use super::tyre::full_slip_speed;
 use crate::collision::{CONTACT_MARGIN, Collider, ColliderPair, Manifold, ManifoldBuilder};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, Pose};
@@ -72,7 +73,9 @@ impl Surfaces {
     /// Adds a contact point of a pair to a problem.
     pub fn push_point(&self, problem: &mut ContactProblem, pair: usize, at: PointGeometry, bodies: &[RigidBody]) {
         let PointGeometry { point, normal, gap } = at;
-        let kind = ContactKind::Point { pair, friction: self.pairs[pair].friction };
+        let SurfacePair { friction, full_slip, .. } = self.pairs[pair];
+        let full_slip = full_slip_speed(full_slip, self.bodies_of(pair), point, normal, bodies);
+        let kind = ContactKind::Point { pair, friction, full_slip };
         let rows = point_rows(point, normal, self.bodies_of(pair), bodies);
         problem.push(Contact::new(kind, point, normal, gap), &rows);
     }

@@ -179,7 +179,13 @@ fn surfaces(colliders: &[Collider], restitution: f64, friction: f64) -> Vec<Surf
     pairs(colliders, &[], &ReachableVolumes::default())
         .meet
         .into_iter()
-        .map(|pair| SurfacePair { pair, restitution, friction, resistance: RollingResistance::default() })
+        .map(|pair| SurfacePair {
+            pair,
+            restitution,
+            friction,
+            full_slip: 0.0,
+            resistance: RollingResistance::default(),
+        })
         .collect()
 }
 

@@ -115,6 +115,7 @@ fn clock(swing: f64) -> Dynamics {
         pair,
         restitution: 0.2,
         friction: 0.1,
+        full_slip: 0.0,
         resistance: RollingResistance::default(),
     });
     let rate = (G / LENGTH).sqrt() / QUALITY;

@@ -3,6 +3,7 @@
 mod asleep;
 mod loaded;
 mod many;
+mod tyres;
 
 use assert_no_alloc::assert_no_alloc;
 use soffio_geometry::bodies::{MassProperties, RigidBody};
@@ -70,6 +71,7 @@ struct Scene {
     colliders: Vec<Collider>,
     restitution: f64,
     friction: f64,
+    full_slip: f64,
     gravity: DVec3,
     damping: f64,
 }
@@ -84,6 +86,7 @@ impl Scene {
             colliders,
             restitution: 0.3,
             friction: 0.5,
+            full_slip: 0.0,
             gravity,
             damping: 0.0,
         }
@@ -97,6 +100,7 @@ impl Scene {
                 pair,
                 restitution: self.restitution,
                 friction: self.friction,
+                full_slip: self.full_slip,
                 resistance: RollingResistance::default(),
             })
             .collect();

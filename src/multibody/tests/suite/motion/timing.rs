@@ -316,7 +316,13 @@ fn an_impact_releases_the_constraint_that_it_triggers() {
         colliders: &colliders,
         pairs: meet
             .into_iter()
-            .map(|pair| SurfacePair { pair, restitution: 1.0, friction: 0.0, resistance: RollingResistance::default() })
+            .map(|pair| SurfacePair {
+                pair,
+                restitution: 1.0,
+                friction: 0.0,
+                full_slip: 0.0,
+                resistance: RollingResistance::default(),
+            })
             .collect(),
     };
     let mut dynamics = Dynamics::new(articulation, world.settings(Integrator::RungeKutta));

@@ -67,7 +67,7 @@ pub fn dynamics_of(world: &World, extras: &Extras) -> Dynamics {
     let (constraints, kinematic_bodies): (&[Constraint], &[KinematicBody]) =
         (&world.constraints, &world.kinematic_bodies);
     let Extras { restitution, friction, resistance, .. } = *extras;
-    let surface = |pair| SurfacePair { pair, restitution, friction, resistance };
+    let surface = |pair| SurfacePair { pair, restitution, friction, full_slip: 0.0, resistance };
     let articulation = Articulation {
         bodies: world.bodies.clone(),
         damping: vec![world.damping; world.bodies.len()],
