@@ -33,6 +33,7 @@ pub mod terry_case;
 pub mod terry_clock;
 pub mod terry_layout;
 pub mod terry_strike;
+pub mod three_motions;
 pub mod twelve_moons;
 pub mod universal_joint;
 pub mod windmill;
@@ -81,6 +82,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "scratch-board/scratch-board.glb", bytes: scratch_board::glb() },
         Artifact { path: "strikers/strikers.glb", bytes: strikers::glb() },
         Artifact { path: "universal-joint/universal-joint.glb", bytes: universal_joint::glb() },
+        Artifact { path: "three-motions/three-motions.glb", bytes: three_motions::glb() },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },

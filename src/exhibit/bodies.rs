@@ -1,5 +1,6 @@
 //! Materials, moving bodies and wires of an exhibit.
 
+use super::behavior::Motion;
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DVec3, Pose};
 use soffio_multibody::dynamics::RollingResistance;
@@ -65,6 +66,8 @@ pub struct Body {
     pub angular_damping: f64,
     /// Index of its material.
     pub material: usize,
+    /// Its own kind of motion, never [`Motion::Auto`]; `None` moves as the exhibit does.
+    pub moved_by: Option<Motion>,
 }
 
 /// A wire or cord: part of a body, or fixed in the world.

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, TouchPermission};
 use super::bodies::{Body, Material, MaterialPair, Wire};
+use super::chart::Chart;
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
 use super::model::Model;
@@ -20,7 +21,7 @@ use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 ///
-/// It has 37 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
+/// It has 38 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
 /// has no state.
 #[derive(Clone, Debug)]
 pub struct Exhibit {
@@ -88,6 +89,8 @@ pub struct Exhibit {
     pub instruments: Vec<InstrumentSpec>,
     /// Triggers of the sounds.
     pub sounds: Vec<SoundBinding>,
+    /// Charts of what is measured.
+    pub charts: Vec<Chart>,
     /// Attract script.
     pub attract: Attract,
     /// Label texts by language.

@@ -31,6 +31,7 @@
 pub mod animated_scale;
 mod behavior;
 mod bodies;
+pub mod chart;
 pub mod clock;
 pub mod codes;
 pub mod diagnostic;

@@ -22,6 +22,7 @@ use super::shared::SharedResources;
 use super::skins::Skinned;
 use super::wires::{self, Segment};
 use super::{FrameInput, Gpu, Lighting, Options, RenderError, ShadowQuality, materials, occlusion};
+use soffio_exhibit::chart::Chart;
 use soffio_exhibit::{Exhibit, Wire};
 use soffio_math::Pose;
 
@@ -45,6 +46,7 @@ pub struct GpuExhibit {
     /// Poses of bodies that a frame leaves out.
     start_poses: Vec<Pose>,
     wires: Vec<Wire>,
+    charts: Vec<Chart>,
     lights: Vec<Punctual>,
     // Scratch memory, kept so that a frame allocates nothing.
     pub(super) frames: Vec<[Vec4; 3]>,
@@ -212,7 +214,7 @@ impl GpuExhibit {
         };
         let light_group = light_group(gpu, shared, light);
         let blended = scene.batches.iter().filter(|batch| batch.pipeline.kind == SurfaceKind::Blend).count();
-        let (frame_count, segment_count) = (exhibit.bodies.len() + 1, wires::count(&exhibit.wires));
+        let (frame_count, segment_count) = (exhibit.bodies.len() + 1, wires::count(&exhibit.wires, &exhibit.charts));
         Ok(Self {
             buffers: Buffers::new(device, &scene, segment_count, &outlines, &shadow_plates),
             bindings: Bindings {
@@ -230,6 +232,7 @@ impl GpuExhibit {
             radius: gallery.radius,
             start_poses: exhibit.bodies.iter().map(|body| body.pose).collect(),
             wires: exhibit.wires.clone(),
+            charts: exhibit.charts.clone(),
             batches: scene.batches,
             lights: scene.lights,
             frames: Vec::with_capacity(frame_count),
@@ -260,7 +263,10 @@ impl GpuExhibit {
         self.globals.set_lights(&self.lights, |i| {
             Mat4::from_cols(frames[i][0], frames[i][1], frames[i][2], Vec4::W).transpose()
         });
-        wires::fill(&self.wires, &self.start_poses, frame.poses, self.globals.eye, &mut self.segments);
+        self.segments.clear();
+        wires::add(&self.wires, &self.start_poses, frame.poses, &mut self.segments);
+        wires::add_curves(&self.charts, frame.curves, &mut self.segments);
+        wires::sort(&mut self.segments, self.globals.eye);
         self.outlines.update(&self.frames, &self.globals, frame.size);
         self.plate_shadows.update(&self.frames);
         if self.has_changed() {

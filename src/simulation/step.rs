@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::aim_assist::{AimAssist, AimContext};
 use super::air::{AimedBreath, Air, BreathTiming};
 use super::camera::{Camera, DEFAULT_ASPECT};
+use super::charts::Charts;
 use super::dust_particles::{AirVelocity, DustParticles};
 use super::emit::{Emitter, StepResult};
 use super::event::Event;
@@ -49,6 +50,7 @@ pub struct Simulation {
     pub(crate) aim_assist: AimAssist,
     pub(crate) air: Air,
     pub(crate) motion: Motion,
+    pub(crate) charts: Charts,
     pub(crate) emitter: Emitter,
     pub(crate) dust_particles: DustParticles,
 }
@@ -63,6 +65,7 @@ impl Simulation {
             aim_assist: AimAssist::new(&exhibit, &mut start_dynamics(&exhibit, &settings)),
             air: Air::new(&exhibit, settings.seed),
             motion: Motion::new(&exhibit, &settings),
+            charts: Charts::new(&exhibit),
             emitter: Emitter::new(&exhibit),
             dust_particles: DustParticles::new(camera.view.target, settings.seed),
             camera,
@@ -115,9 +118,10 @@ impl Simulation {
         self.update_aim(input);
         self.apply_wind();
         self.motion.apply_idle_damping(&self.exhibit, &self.settings, self.breath.speed > 0.0);
-        self.motion.dynamics.set_breath_speed(self.breath.speed);
+        self.motion.set_breath_speed(self.breath.speed);
         let elapsed = self.clock.elapsed();
         let became_invalid = self.motion.advance(input, &self.exhibit, elapsed, &self.camera, &mut self.air.wind);
+        self.charts.advance(&self.exhibit.charts, &self.motion);
         self.emit_events_and_sounds(set_invalid.or(became_invalid));
         self.advect_particles();
         self.clock.step += 1;
@@ -153,6 +157,7 @@ impl Simulation {
     /// Returns the motion to its start, at time 0.
     fn restart(&mut self) {
         self.motion.restart(&self.exhibit, &self.settings_now());
+        self.charts = Charts::new(&self.exhibit);
         self.clock.start = self.clock.step;
     }
 
@@ -183,7 +188,7 @@ impl Simulation {
     fn emit_events_and_sounds(&mut self, fault: Option<usize>) {
         let Self { exhibit, settings, clock, camera, breath, aim_assist, air, motion, emitter, .. } = self;
         let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
-        let result = StepResult { dynamics: &motion.dynamics, impacts: &motion.impacts, fault, air, breath: aimed };
+        let result = StepResult { motion, impacts: &motion.impacts, fault, air, breath: aimed };
         emitter.emit(clock.step, &camera.view, result);
     }
 
@@ -259,14 +264,14 @@ impl Simulation {
             aspect,
             exhibit: &self.exhibit,
             bodies: &self.motion.dynamics.bodies,
-            is_kinematic: self.motion.dynamics.system().kinematic(),
+            is_kinematic: &self.motion.is_driven,
         };
         self.motion.pointer_grabs.hit_test(at, &mut self.air.wind, &scene)
     }
 
     /// Whether a body is asleep: at rest, and skipped until a contact or force wakes it.
     pub fn sleeps(&self, body: usize) -> bool {
-        self.motion.dynamics.is_asleep(body)
+        self.motion.of_body(body).is_asleep(body)
     }
 
     /// The bodies' state, for tests that change it from outside; wakes them.
@@ -277,12 +282,12 @@ impl Simulation {
 
     /// Contacts with a normal force at the end of the last step.
     pub fn touching(&self) -> impl Iterator<Item = ContactReport> + '_ {
-        self.motion.dynamics.contact_reports()
+        self.motion.kinds().flat_map(|dynamics| dynamics.contact_reports())
     }
 
     /// Largest distance between the two points of any joint now, m.
     pub fn joint_error(&self) -> f64 {
-        self.motion.dynamics.joint_error()
+        self.motion.joint_error()
     }
 
     /// Kinetic and potential energy, J.

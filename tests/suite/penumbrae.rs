@@ -204,7 +204,8 @@ impl Wall {
         let mut sum = vec![0.0; (SIZE.0 * SIZE.1) as usize];
         for k in 0..exposures {
             let exposure = 1.0 - 0.013 * k as f32;
-            let frame = FrameInput { poses: &[pose], dust: &[], view: self.view, size: SIZE, exposure, time: 0.0 };
+            let frame =
+                FrameInput { poses: &[pose], dust: &[], curves: &[], view: self.view, size: SIZE, exposure, time: 0.0 };
             let picture = self.renderer.draw(&frame).expect("a picture");
             for (sum, pixel) in sum.iter_mut().zip(picture.pixels()) {
                 *sum += f64::from(linear(pixel.0[1]) / exposure) / f64::from(exposures);

@@ -5,10 +5,12 @@
 //! sound, texts.
 
 mod bodies;
+mod charts;
 mod clock;
 mod colliders;
 mod context;
 mod joints;
+mod kinds;
 mod materials;
 mod motion;
 mod nail_paths;
@@ -33,6 +35,7 @@ use super::sidecar::{self, Sidecar};
 use super::source::SidecarText;
 use super::{codes, paths, schema};
 use context::Context;
+use kinds::Joined;
 use nail_paths::add_path_nodes;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::Constraint;
@@ -117,7 +120,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         duration: f64::INFINITY,
         assembles: false,
         motion: Motion::Dynamics,
-        touch: TouchPermission { permitted: false, force: 0.0 },
+        touch: TouchPermission::default(),
         clock: None,
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
@@ -133,6 +136,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         level_db: 0.0,
         instruments: Vec::new(),
         sounds: Vec::new(),
+        charts: Vec::new(),
         attract: Attract::default(),
         labels: Labels::default(),
         credit: Credit::default(),
@@ -194,9 +198,11 @@ impl Context<'_> {
         self.check_gear_rings(&constraints);
         self.check_rank(&constraints, &drives);
         self.check_mass_ratios(&constraints, &bodies, &drives);
-        let excluded_pairs = self.excluded_pairs(&constraints, &limits);
+        let excluded_pairs = self.excluded_pairs(&bodies, &constraints, &limits);
         let colliders = self.colliders(&wires);
         let motion = self.motion(&constraints);
+        self.check_kinds(&bodies, &Joined { constraints: &constraints, limits: &limits, springs: &springs });
+        let charts = self.charts(&constraints);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
         let shelters = self.shelters(&wind_surfaces);
@@ -243,6 +249,7 @@ impl Context<'_> {
             level_db: self.sidecar.scene.level.0,
             instruments,
             sounds,
+            charts,
             attract,
             labels,
             credit: self.credit(),
@@ -309,7 +316,7 @@ impl Context<'_> {
 
     /// Permission and force of grabs.
     fn touch(&mut self, bodies: &[Body]) -> TouchPermission {
-        let given = self.sidecar.touch;
+        let given = &self.sidecar.touch;
         let weight: f64 = bodies.iter().map(|body| body.properties.mass * STANDARD_GRAVITY).sum();
         let force = given.force.map_or(STRENGTH * weight, |force| force.0);
         let force = if bodies.is_empty() { force } else { self.positive(force, "/touch/force") };
@@ -321,7 +328,7 @@ impl Context<'_> {
             "/touch/force",
             "twice the weight of all moving bodies",
         );
-        TouchPermission { permitted: given.permitted, force }
+        TouchPermission { permitted: self.sidecar.touch.permitted, force, together: self.together(bodies) }
     }
 
     /// Does the exhibit allow open constraints at the start?

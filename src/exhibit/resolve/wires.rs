@@ -147,7 +147,7 @@ fn catmull_rom(points: &[DVec3]) -> Vec<DVec3> {
 }
 
 /// Linear RGB of a colour; the transfer function of sRGB (IEC 61966-2-1).
-fn linear(color: &Color) -> [f32; 3] {
+pub(super) fn linear(color: &Color) -> [f32; 3] {
     match color {
         Color::Linear(rgb) => *rgb,
         Color::Hex(text) => {

@@ -5,6 +5,7 @@
 //! are refused, except those that begin with `x_`, which are ignored, and old names ([`super::renamed`]), which cause a warning.
 
 mod bodies;
+mod chart;
 mod combinations;
 mod forces;
 mod function;
@@ -22,6 +23,7 @@ use serde::Deserialize;
 use super::quantity::*;
 
 pub use bodies::*;
+pub use chart::*;
 pub use combinations::*;
 pub use forces::*;
 pub use function::*;
@@ -86,6 +88,9 @@ pub struct Sidecar {
     /// Which motion of which body plays which sound.
     #[serde(default)]
     pub sound: Vec<Sound>,
+    /// Curves of what is measured, drawn on boards.
+    #[serde(default)]
+    pub chart: Vec<Chart>,
     /// What happens when nobody is there.
     #[serde(default)]
     pub attract: Attract,
@@ -148,13 +153,15 @@ pub enum MovedBy {
 }
 
 /// What visitors may do to the sculpture by touch or mouse.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Touch {
     /// May visitors grab and drag bodies?
     pub permitted: bool,
     /// Largest force of a grab; by default twice the weight of all moving bodies.
     pub force: Option<Force>,
+    /// Lists of bodies: who drags one of a list drags all of it, by the same way. They stand alike at the start.
+    pub together: Vec<Vec<String>>,
 }
 
 /// The hands of a clock: the kiosk sets them to the local time by turning the minute hand.
@@ -191,7 +198,7 @@ pub struct Turning {
 
 impl Default for Touch {
     fn default() -> Self {
-        Self { permitted: true, force: None }
+        Self { permitted: true, force: None, together: Vec::new() }
     }
 }
 
