@@ -71,6 +71,8 @@ codes! {
     UNKNOWN_WIRE = "E0265", "no wire of this name";
     DYNAMICS_ONLY = "E0266", "an exhibit cannot move by positions";
     MIXED_KINDS = "E0267", "joined bodies move by different kinds of motion";
+    UNKNOWN_SIGNAL = "E0268", "no signal of this name";
+    EXPRESSION = "E0269", "a text is no expression";
     BROKEN_MODEL = "E0301", "the model is broken";
     EXTENSION = "E0302", "the model requires an extension that is not supported";
     MODEL_LIMIT = "E0303", "the model exceeds a limit";

@@ -49,6 +49,7 @@ mod resolve;
 pub mod schema;
 pub mod shape_tracks;
 pub mod sidecar;
+pub mod signal;
 mod source;
 pub mod view;
 

@@ -56,6 +56,7 @@ mod pointer_grabs;
 mod rate;
 pub mod record;
 mod script;
+mod signals;
 mod snapshot;
 mod sonify;
 mod source;

@@ -188,6 +188,12 @@ impl Motion {
         self.parts.iter_mut().for_each(|part| part.dynamics.set_breath_speed(speed));
     }
 
+    /// Gives the rest of a spring, m or rad, and its rate.
+    pub fn give_rest(&mut self, spring: usize, value: f64, rate: f64) {
+        self.dynamics.give_rest(spring, value, rate);
+        self.parts.iter_mut().for_each(|part| part.dynamics.give_rest(spring, value, rate));
+    }
+
     /// The dynamics of each kind of motion, the exhibit's own first.
     pub fn kinds(&self) -> impl Iterator<Item = &Dynamics> {
         std::iter::once(&self.dynamics).chain(self.parts.iter().map(|part| &part.dynamics))

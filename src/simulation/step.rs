@@ -13,6 +13,7 @@ use super::input::{Command, Settings, StepInput};
 use super::motion::Motion;
 use super::pointer_grabs::PickScene;
 use super::rate::{DT, SAMPLES_PER_STEP};
+use super::signals::Signals;
 use super::source::BreathState;
 use super::start::start_dynamics;
 use soffio_detector::AmbientSpread;
@@ -50,6 +51,7 @@ pub struct Simulation {
     pub(crate) aim_assist: AimAssist,
     pub(crate) air: Air,
     pub(crate) motion: Motion,
+    pub(crate) signals: Signals,
     pub(crate) charts: Charts,
     pub(crate) emitter: Emitter,
     pub(crate) dust_particles: DustParticles,
@@ -65,6 +67,7 @@ impl Simulation {
             aim_assist: AimAssist::new(&exhibit, &mut start_dynamics(&exhibit, &settings)),
             air: Air::new(&exhibit, settings.seed),
             motion: Motion::new(&exhibit, &settings),
+            signals: Signals::new(&exhibit),
             charts: Charts::new(&exhibit),
             emitter: Emitter::new(&exhibit),
             dust_particles: DustParticles::new(camera.view.target, settings.seed),
@@ -119,6 +122,7 @@ impl Simulation {
         self.apply_wind();
         self.motion.apply_idle_damping(&self.exhibit, &self.settings, self.breath.speed > 0.0);
         self.motion.set_breath_speed(self.breath.speed);
+        self.compute_signals();
         let elapsed = self.clock.elapsed();
         let became_invalid = self.motion.advance(input, &self.exhibit, elapsed, &self.camera, &mut self.air.wind);
         self.charts.advance(&self.exhibit.charts, &self.motion);
@@ -157,6 +161,7 @@ impl Simulation {
     /// Returns the motion to its start, at time 0.
     fn restart(&mut self) {
         self.motion.restart(&self.exhibit, &self.settings_now());
+        self.signals = Signals::new(&self.exhibit);
         self.charts = Charts::new(&self.exhibit);
         self.clock.start = self.clock.step;
     }
@@ -182,6 +187,18 @@ impl Simulation {
         let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
         let timing = BreathTiming { onset: &breath.onset, time: clock.elapsed() };
         air.apply_wind(aimed, timing, &motion.dynamics.bodies, &mut motion.wrenches);
+    }
+
+    /// Computes the signals, and gives them to the springs that follow them.
+    fn compute_signals(&mut self) {
+        let Self { exhibit, settings, clock, breath, aim_assist, air, motion, signals, .. } = self;
+        if exhibit.signals.is_empty() {
+            return;
+        }
+        let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
+        let jet = aimed.jet(&air.jet_front);
+        let velocity = |point| air.wind.directed_velocity(jet.as_ref(), point) + air.wind.undirected_velocity(point);
+        signals.advance(&exhibit.signals, (clock.elapsed(), breath.speed), velocity, motion);
     }
 
     /// Emits the events and sounds of the step; `fault`: the first body with invalid numbers.
@@ -293,6 +310,12 @@ impl Simulation {
     /// Kinetic and potential energy, J.
     pub fn energy(&self) -> f64 {
         self.motion.dynamics.energy()
+    }
+
+    /// Value of a signal in the last step; `None` where the exhibit has none of this name.
+    pub fn signal(&self, name: &str) -> Option<f64> {
+        let index = self.exhibit.signals.iter().position(|signal| signal.name == name)?;
+        Some(self.signals.value(index))
     }
 
     /// The view for a picture of this aspect (width over height), turned as in the last step.

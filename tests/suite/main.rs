@@ -46,4 +46,6 @@ mod skins;
 mod sound;
 mod steel_fish;
 mod systems;
+mod three_motions;
+mod walker;
 mod wind;

@@ -16,6 +16,7 @@ mod motion;
 mod nail_paths;
 mod nodes;
 mod picture;
+mod signals;
 mod surfaces;
 mod texts;
 mod winds;
@@ -137,6 +138,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         instruments: Vec::new(),
         sounds: Vec::new(),
         charts: Vec::new(),
+        signals: Vec::new(),
         attract: Attract::default(),
         labels: Labels::default(),
         credit: Credit::default(),
@@ -203,6 +205,7 @@ impl Context<'_> {
         let motion = self.motion(&constraints);
         self.check_kinds(&bodies, &Joined { constraints: &constraints, limits: &limits, springs: &springs });
         let charts = self.charts(&constraints);
+        let signals = self.signals(&springs);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
         let shelters = self.shelters(&wind_surfaces);
@@ -250,6 +253,7 @@ impl Context<'_> {
             instruments,
             sounds,
             charts,
+            signals,
             attract,
             labels,
             credit: self.credit(),

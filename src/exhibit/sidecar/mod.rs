@@ -10,6 +10,7 @@ mod combinations;
 mod forces;
 mod function;
 mod joints;
+mod signal;
 mod surfaces;
 mod texts;
 mod timing;
@@ -28,6 +29,7 @@ pub use combinations::*;
 pub use forces::*;
 pub use function::*;
 pub use joints::*;
+pub use signal::*;
 pub use surfaces::*;
 pub use texts::*;
 pub use timing::*;
@@ -88,6 +90,9 @@ pub struct Sidecar {
     /// Which motion of which body plays which sound.
     #[serde(default)]
     pub sound: Vec<Sound>,
+    /// Numbers that it computes while it moves; springs follow them.
+    #[serde(default)]
+    pub signal: Vec<Signal>,
     /// Curves of what is measured, drawn on boards.
     #[serde(default)]
     pub chart: Vec<Chart>,
