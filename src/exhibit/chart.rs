@@ -22,7 +22,7 @@ pub struct Chart {
 }
 
 impl Chart {
-    /// Height on the board of a value, 0 at its lower edge … 1 at its upper one, where also stays what lies beyond.
+    /// Height on the board of a value, 0 at its lower edge … 1 at its upper one, where values beyond stay too.
     pub fn height(&self, value: f64) -> f64 {
         let [low, high] = self.range;
         let value = value.clamp(low, high);

@@ -6,7 +6,7 @@ use super::clock_setting::{ClockSetting, SettingStep};
 use super::emit::LIST_CAPACITY;
 use super::idle_damping::IdleDamping;
 use super::input::{MotionMode, Profile, Settings, StepInput};
-use super::part::{Part, advance};
+use super::motion_group::{MotionGroup, advance};
 use super::pointer_grabs::{PickScene, PointerGrabs};
 use super::rate::{DT, STEPS_PER_SECOND};
 use super::start::{start_clock_setting, start_dynamics_of};
@@ -29,20 +29,20 @@ struct RunningAssembly {
 /// All that moves the bodies of an exhibit.
 #[derive(Clone)]
 pub(crate) struct Motion {
-    /// Constrained dynamics. Its bodies are all of the exhibit's, those of the parts included.
+    /// Constrained dynamics. Its bodies are all of the exhibit's, those of the groups included.
     pub dynamics: Dynamics,
     /// Procedural motion.
     pub procedural: Procedural,
     /// Bodies that move by a kind of their own.
-    pub parts: Vec<Part>,
+    pub groups: Vec<MotionGroup>,
     /// Whether each body moves by the exhibit's own kind.
     own: Vec<bool>,
     /// Of each kind, the constraints of lengths that act in it.
     lengths: Vec<Vec<usize>>,
-    /// All bodies, those of parts as the parts have moved them.
-    of_parts: Vec<RigidBody>,
+    /// All bodies, those of groups as the groups have moved them.
+    of_groups: Vec<RigidBody>,
     /// Whether each body follows a path or an animation.
-    pub is_driven: Vec<bool>,
+    pub is_kinematic: Vec<bool>,
     /// Parts that pointers hold.
     pub pointer_grabs: PointerGrabs,
     /// Which of the motions is in use.
@@ -63,16 +63,16 @@ pub(crate) struct Motion {
 impl Motion {
     /// An exhibit at its start.
     pub fn new(exhibit: &Exhibit, settings: &Settings) -> Self {
-        let parts = Part::all(exhibit, settings);
+        let groups = MotionGroup::all(exhibit, settings);
         let own: Vec<bool> = exhibit.bodies.iter().map(|body| body.moved_by.is_none()).collect();
         let dynamics = start_dynamics_of(exhibit, settings, &own);
-        let is_driven = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
+        let is_kinematic = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
         Self {
-            lengths: lengths_of_kinds(exhibit, &parts),
-            parts,
+            lengths: lengths_of_kinds(exhibit, &groups),
+            groups,
             own,
-            of_parts: dynamics.bodies.clone(),
-            is_driven: (0..exhibit.bodies.len()).map(is_driven).collect(),
+            of_groups: dynamics.bodies.clone(),
+            is_kinematic: (0..exhibit.bodies.len()).map(is_kinematic).collect(),
             clock_setting: start_clock_setting(exhibit, settings, &dynamics.bodies),
             procedural: Procedural::new(&dynamics, procedural::Settings::default()),
             dynamics,
@@ -92,7 +92,7 @@ impl Motion {
     pub fn restart(&mut self, exhibit: &Exhibit, settings: &Settings) {
         self.assembly = None;
         self.dynamics = start_dynamics_of(exhibit, settings, &self.own);
-        self.parts = Part::all(exhibit, settings);
+        self.groups = MotionGroup::all(exhibit, settings);
         self.clock_setting = start_clock_setting(exhibit, settings, &self.dynamics.bodies);
         self.procedural = Procedural::new(&self.dynamics, procedural::Settings::default());
         self.idle_damping = IdleDamping::default();
@@ -143,7 +143,7 @@ impl Motion {
             aspect: camera.aspect,
             exhibit,
             bodies: &self.dynamics.bodies,
-            is_kinematic: &self.is_driven,
+            is_kinematic: &self.is_kinematic,
         };
         self.pointer_grabs.update(input.pointer_grabs, wind, &scene);
         self.mode = match input.mode.unwrap_or(MotionMode::of(exhibit)) {
@@ -165,18 +165,18 @@ impl Motion {
             self.pointer_grabs.apply_forces(&self.own, &mut self.dynamics, DT, &mut self.wrenches);
             self.set_clock(exhibit, elapsed);
         }
-        let Self { dynamics, procedural, parts, own, pointer_grabs, wrenches, impacts, of_parts, .. } = self;
-        if parts.is_empty() {
+        let Self { dynamics, procedural, groups, own, pointer_grabs, wrenches, impacts, of_groups, .. } = self;
+        if groups.is_empty() {
             return advance(self.mode, own, (dynamics, procedural), pointer_grabs, wrenches, impacts);
         }
-        // The step puts the bodies of parts back to where they started.
-        of_parts.copy_from_slice(&dynamics.bodies);
+        // The step puts the bodies of groups back to where they started.
+        of_groups.copy_from_slice(&dynamics.bodies);
         let mut fault = advance(self.mode, own, (dynamics, procedural), pointer_grabs, wrenches, impacts);
-        for part in parts {
-            let of_part = part.advance(of_parts, pointer_grabs, wrenches, impacts);
-            fault = fault.or(of_part);
+        for group in groups {
+            let of_group = group.advance(of_groups, pointer_grabs, wrenches, impacts);
+            fault = fault.or(of_group);
         }
-        for (index, body) in of_parts.iter().enumerate().filter(|(index, _)| !own[*index]) {
+        for (index, body) in of_groups.iter().enumerate().filter(|(index, _)| !own[*index]) {
             dynamics.bodies[index] = *body;
         }
         fault
@@ -185,33 +185,33 @@ impl Motion {
     /// Sets the speed of the breath at the lips from the next step on, m/s.
     pub fn set_breath_speed(&mut self, speed: f64) {
         self.dynamics.set_breath_speed(speed);
-        self.parts.iter_mut().for_each(|part| part.dynamics.set_breath_speed(speed));
+        self.groups.iter_mut().for_each(|group| group.dynamics.set_breath_speed(speed));
     }
 
     /// Gives the rest of a spring, m or rad, and its rate.
     pub fn give_rest(&mut self, spring: usize, value: f64, rate: f64) {
         self.dynamics.give_rest(spring, value, rate);
-        self.parts.iter_mut().for_each(|part| part.dynamics.give_rest(spring, value, rate));
+        self.groups.iter_mut().for_each(|group| group.dynamics.give_rest(spring, value, rate));
     }
 
     /// The dynamics of each kind of motion, the exhibit's own first.
     pub fn kinds(&self) -> impl Iterator<Item = &Dynamics> {
-        std::iter::once(&self.dynamics).chain(self.parts.iter().map(|part| &part.dynamics))
+        std::iter::once(&self.dynamics).chain(self.groups.iter().map(|group| &group.dynamics))
     }
 
     /// The dynamics that a body moves by.
     pub fn of_body(&self, body: usize) -> &Dynamics {
-        self.parts.iter().find(|part| part.has(body)).map_or(&self.dynamics, |part| &part.dynamics)
+        self.groups.iter().find(|group| group.has(body)).map_or(&self.dynamics, |group| &group.dynamics)
     }
 
     /// Index of the kind that a constraint acts in, as in [`Self::kinds`].
     pub fn kind_of(&self, constraint: &Constraint) -> usize {
-        kind_of(constraint, &self.parts)
+        kind_of(constraint, &self.groups)
     }
 
     /// Largest error of a constraint of lengths, m.
     pub fn joint_error(&self) -> f64 {
-        if self.parts.is_empty() {
+        if self.groups.is_empty() {
             return self.dynamics.joint_error();
         }
         let mut frames = vec![DMat3::IDENTITY; self.own.len()];
@@ -231,17 +231,17 @@ impl Motion {
     }
 }
 
-/// Index of the kind that a constraint acts in: 0 is the exhibit's own, then come the parts.
-fn kind_of(constraint: &Constraint, parts: &[Part]) -> usize {
-    parts.iter().position(|part| part.is_joined_by(constraint)).map_or(0, |part| part + 1)
+/// Index of the kind that a constraint acts in: 0 is the exhibit's own, then come the groups.
+fn kind_of(constraint: &Constraint, groups: &[MotionGroup]) -> usize {
+    groups.iter().position(|group| group.is_joined_by(constraint)).map_or(0, |group| group + 1)
 }
 
 /// Constraints of lengths that act in each kind.
-fn lengths_of_kinds(exhibit: &Exhibit, parts: &[Part]) -> Vec<Vec<usize>> {
-    let mut lengths = vec![Vec::new(); 1 + parts.len()];
+fn lengths_of_kinds(exhibit: &Exhibit, groups: &[MotionGroup]) -> Vec<Vec<usize>> {
+    let mut lengths = vec![Vec::new(); 1 + groups.len()];
     for (index, constraint) in exhibit.constraints.iter().enumerate() {
         if !matches!(constraint.kind, ConstraintKind::Orientation { .. }) {
-            lengths[kind_of(constraint, parts)].push(index);
+            lengths[kind_of(constraint, groups)].push(index);
         }
     }
     lengths

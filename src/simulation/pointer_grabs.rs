@@ -178,24 +178,24 @@ impl PointerGrabs {
         }
     }
 
-    /// The first [`MAX_GRABS`] points of the bodies that are `own`, each with its goal (world, m): what the grabs hold, and what is
-    /// dragged together with it.
-    fn held(&self, own: &[bool]) -> impl Iterator<Item = (GrabbedPoint, DVec3)> {
+    /// The first [`MAX_GRABS`] points of the bodies that are `own`, each with its goal (world, m): those of the grabs, and of bodies that are
+    /// dragged with them.
+    fn grabbed_points(&self, own: &[bool]) -> impl Iterator<Item = (GrabbedPoint, DVec3)> {
         let Self { grabs, together, .. } = self;
-        let held = grabs.iter().filter_map(|grab| Some((grab.grabbed?, grab.goal)));
-        let all = held.flat_map(|(GrabbedPoint { body, point }, goal)| {
+        let grabbed = grabs.iter().filter_map(|grab| Some((grab.grabbed?, grab.goal)));
+        let all = grabbed.flat_map(|(GrabbedPoint { body, point }, goal)| {
             let others = together[body].iter();
             let others = others.map(move |&(body, from)| (GrabbedPoint { body, point }, goal + from));
             std::iter::once((GrabbedPoint { body, point }, goal)).chain(others)
         });
-        all.filter(|(held, _)| own[held.body]).take(MAX_GRABS)
+        all.filter(|(grabbed, _)| own[grabbed.body]).take(MAX_GRABS)
     }
 
     /// Target positions of the points of bodies that are `own` after `dt` seconds, for position-based motion.
     pub fn position_targets(&mut self, own: &[bool], bodies: &[RigidBody], dt: f64) -> &[GrabTarget] {
         let mut targets = std::mem::take(&mut self.targets);
         targets.clear();
-        for (GrabbedPoint { body, point }, goal) in self.held(own) {
+        for (GrabbedPoint { body, point }, goal) in self.grabbed_points(own) {
             let now = bodies[body].pose().point(point);
             targets.push(GrabTarget { body, point, target: now + dt * desired_velocity(goal, now) });
         }
@@ -210,7 +210,7 @@ impl PointerGrabs {
         points.clear();
         // v* − v without impulses, m/s.
         let mut errors = [DVec3::ZERO; MAX_GRABS];
-        for (GrabbedPoint { body, point }, goal) in self.held(own) {
+        for (GrabbedPoint { body, point }, goal) in self.grabbed_points(own) {
             let state = &dynamics.bodies[body];
             let now = state.pose().point(point);
             let arm = now - state.position;

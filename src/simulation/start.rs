@@ -40,8 +40,8 @@ pub fn start_dynamics(exhibit: &Exhibit, settings: &Settings) -> Dynamics {
 
 /// The same, in which only the bodies that are `own` move, and the others stand where they start.
 pub(super) fn start_dynamics_of(exhibit: &Exhibit, settings: &Settings, own: &[bool]) -> Dynamics {
-    let is_driven = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
-    let standing = (0..own.len()).filter(|&body| !own[body] && !is_driven(body)).map(|body| KinematicBody {
+    let is_kinematic = |body: usize| exhibit.drives.iter().any(|drive| drive.body == body);
+    let standing = (0..own.len()).filter(|&body| !own[body] && !is_kinematic(body)).map(|body| KinematicBody {
         body,
         motion: KeyframeMotion {
             keys: vec![(0.0, exhibit.bodies[body].pose)],
@@ -50,7 +50,7 @@ pub(super) fn start_dynamics_of(exhibit: &Exhibit, settings: &Settings, own: &[b
         },
     });
     let kinematic_bodies: Vec<KinematicBody> = exhibit.drives.iter().cloned().chain(standing).collect();
-    let is_own = |body: Option<usize>| body.is_some_and(|body| own[body] || is_driven(body));
+    let is_own = |body: Option<usize>| body.is_some_and(|body| own[body] || is_kinematic(body));
     let pairs = exhibit.collider_pairs().meet.into_iter();
     let pairs = pairs.filter(|pair| [pair.a, pair.b].iter().any(|&collider| is_own(exhibit.colliders[collider].body)));
     let limits = exhibit.limits.iter().filter(|limit| (0..own.len()).any(|body| own[body] && limit.kind.acts_on(body)));

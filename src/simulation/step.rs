@@ -281,7 +281,7 @@ impl Simulation {
             aspect,
             exhibit: &self.exhibit,
             bodies: &self.motion.dynamics.bodies,
-            is_kinematic: &self.motion.is_driven,
+            is_kinematic: &self.motion.is_kinematic,
         };
         self.motion.pointer_grabs.hit_test(at, &mut self.air.wind, &scene)
     }

@@ -28,7 +28,7 @@ fn draught(from: DVec3, speed: f64) -> Wind {
         name: "test".into(),
         kind: WindKind::Draught { direction: -from, inlet: None },
         speed: Function::Constant(speed),
-        modulation: Modulation::default(),
+        modulation: Modulation::Steady,
     }
 }
 

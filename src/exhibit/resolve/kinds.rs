@@ -11,7 +11,7 @@ use soffio_multibody::procedural::PositionSolver;
 /// Largest rotation between the starts of bodies that are dragged together, as the distance of unit quaternions from ±1.
 const ALIKE: f64 = 1e-6;
 
-/// What moves the bodies of an exhibit against each other.
+/// Everything that connects the bodies of an exhibit.
 pub(super) struct Joined<'a> {
     pub constraints: &'a [Constraint],
     pub limits: &'a [Limit],
@@ -38,7 +38,7 @@ fn written(kind: Option<Motion>) -> &'static str {
 }
 
 impl Context<'_> {
-    /// Checks that joined bodies move by one kind, and that each kind knows what joins them.
+    /// Checks that joined bodies move by one kind, and that each kind knows their constraints.
     pub(super) fn check_kinds(&mut self, bodies: &[Body], joined: &Joined) {
         if bodies.iter().all(|body| body.moved_by.is_none()) {
             return;

@@ -127,8 +127,8 @@ impl Springs {
     /// Gives the rest length (m) or rest angle (rad) of a spring, and its rate, from now on. It acts where the spring was made with
     /// [`Function::Given`]; others do not change.
     pub fn give_rest(&mut self, spring: usize, value: f64, rate: f64) {
-        if let Some(Spring { rest_length: rest @ Function::Given { .. }, .. }) = self.springs.get_mut(spring) {
-            *rest = Function::Given { value, rate };
+        if let Some(Spring { rest_length: length @ Function::Given { .. }, .. }) = self.springs.get_mut(spring) {
+            *length = Function::Given { value, rate };
         }
     }
 

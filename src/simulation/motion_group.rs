@@ -1,7 +1,7 @@
 //! Bodies that move by a kind of their own (`moved_by` in the sidecar).
 //!
 //! Each kind has dynamics of its own, of the whole exhibit under the same numbers. Bodies of other kinds stand in it where they
-//! began, and nothing there depends on them: no joint connects two kinds, which is checked when an exhibit is loaded, and no
+//! began, and no group depends on another: no joint connects two kinds, which is checked when an exhibit is loaded, and no
 //! colliders of two kinds are a pair. After a step the exhibit's bodies take over the state of each kind's own.
 
 use super::input::{MotionMode, Settings};
@@ -15,19 +15,19 @@ use soffio_multibody::articulation::Constraint;
 use soffio_multibody::dynamics::{Dynamics, Impact};
 use soffio_multibody::procedural::{self, PositionSolver, Procedural};
 
-/// Bodies that move by one kind, and what moves them.
+/// Bodies that move by one kind, with their dynamics.
 #[derive(Clone)]
-pub(crate) struct Part {
+pub(crate) struct MotionGroup {
     mode: MotionMode,
-    /// Whether each body is one of the part.
+    /// Whether each body is one of the group.
     own: Vec<bool>,
-    /// Of the whole exhibit, in which only the part's bodies move.
+    /// Of the whole exhibit, in which only the group's bodies move.
     pub dynamics: Dynamics,
     procedural: Procedural,
 }
 
-impl Part {
-    /// The parts of an exhibit at its start, one for each kind that some of its bodies have.
+impl MotionGroup {
+    /// The groups of an exhibit at its start, one for each kind that some of its bodies have.
     pub fn all(exhibit: &Exhibit, settings: &Settings) -> Vec<Self> {
         let mut kinds: Vec<Motion> = Vec::new();
         for kind in exhibit.bodies.iter().filter_map(|body| body.moved_by) {
@@ -45,18 +45,18 @@ impl Part {
         Self { mode: MotionMode::by(kind), own, dynamics, procedural }
     }
 
-    /// Whether a body is one of the part.
+    /// Whether a body is one of the group.
     pub fn has(&self, body: usize) -> bool {
         self.own[body]
     }
 
-    /// Whether a constraint acts on a body of the part.
+    /// Whether a constraint acts on a body of the group.
     pub fn is_joined_by(&self, constraint: &Constraint) -> bool {
         (0..self.own.len()).any(|body| self.own[body] && constraint.kind.acts_on(body))
     }
 
-    /// Moves the part's bodies for a step, and writes their state to `bodies`. Where that was changed from outside, the part
-    /// begins from there. Returns the first body with invalid numbers, if any; the part is then as before.
+    /// Moves the group's bodies for a step, and writes their state to `bodies`. Where that was changed from outside, the group
+    /// begins from there. Returns the first body with invalid numbers, if any; the group is then as before.
     pub fn advance(
         &mut self,
         bodies: &mut [RigidBody],
