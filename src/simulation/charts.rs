@@ -72,8 +72,11 @@ impl Charts {
         }
     }
 
-    /// Measures after a step.
+    /// Measures after a step. Nothing is measured in an assembly, which has joints of its own.
     pub fn advance(&mut self, charts: &[Chart], motion: &Motion) {
+        if motion.assembly_distance().is_some() {
+            return;
+        }
         let Self { curves, starts, frames } = self;
         let measured = charts.iter().flat_map(|chart| chart.curves.iter().map(move |curve| (chart, &curve.measured)));
         for (curve, (chart, measured)) in curves.iter_mut().zip(measured) {
