@@ -10,6 +10,8 @@
 //!  212  knee
 //!  262  sole
 //! ```
+//!
+//! The shoes reach as far back as forward, so the shins hang upright.
 
 use soffio_math::{DQuat, DVec2, DVec3, PI};
 
@@ -145,7 +147,7 @@ fn puppet(names: &Names, hook: DVec3, clothes: usize, finishes: &Finishes) -> Ve
                     shin,
                     vec![
                         limb(shin_stick, SHIN, 5.0 * MM, finishes.wood),
-                        part(foot, sole, DVec3::new(0.0, -SHIN, 5.0 * MM), y_to_z(), WOOD, finishes.black),
+                        part(foot, sole, -SHIN * DVec3::Y, y_to_z(), WOOD, finishes.black),
                     ],
                     Vec::new(),
                 ),
