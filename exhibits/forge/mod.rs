@@ -36,8 +36,10 @@ pub mod terry_case;
 pub mod terry_clock;
 pub mod terry_layout;
 pub mod terry_strike;
+pub mod three_motions;
 pub mod twelve_moons;
 pub mod universal_joint;
+pub mod walker;
 pub mod windmill;
 pub mod windy_corner;
 
@@ -86,6 +88,8 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "scratch-board/scratch-board.glb", bytes: scratch_board::glb() },
         Artifact { path: "strikers/strikers.glb", bytes: strikers::glb() },
         Artifact { path: "universal-joint/universal-joint.glb", bytes: universal_joint::glb() },
+        Artifact { path: "three-motions/three-motions.glb", bytes: three_motions::glb() },
+        Artifact { path: "walker/walker.glb", bytes: walker::glb() },
         Artifact { path: "windmill/windmill.glb", bytes: windmill::glb() },
         Artifact { path: "windy-corner/windy-corner.glb", bytes: windy_corner::glb().1 },
         Artifact { path: "steel-fish/steel-fish.glb", bytes: model },

@@ -77,6 +77,7 @@ pub fn run(args: Args) -> Outcome {
     let frame = FrameInput {
         poses: &snapshot.poses,
         dust: &snapshot.dust_particles,
+        curves: &snapshot.curves,
         view,
         size,
         exposure,

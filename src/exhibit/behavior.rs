@@ -22,27 +22,33 @@ pub enum Motion {
 
 impl Motion {
     /// Why constraints and springs such as these move by dynamics alone, and not by positions; `None` where they move by both.
-    pub fn refusal(constraints: &[Constraint], springs: &[Spring]) -> Option<&'static str> {
-        if constraints.iter().any(|constraint| matches!(constraint.kind, ConstraintKind::Coupling { .. })) {
+    pub fn refusal<'a>(
+        constraints: impl IntoIterator<Item = &'a Constraint> + Clone,
+        springs: impl IntoIterator<Item = &'a Spring>,
+    ) -> Option<&'static str> {
+        let mut all = constraints.clone().into_iter();
+        if all.any(|constraint| matches!(constraint.kind, ConstraintKind::Coupling { .. })) {
             return Some("its gears pass on forces, which position-based motion does not know");
         }
         let seam =
             |spring: &Spring| matches!(spring.kind, SpringKind::Angular { measure: Measure::Displacement { .. } });
-        if springs.iter().any(seam) {
+        if springs.into_iter().any(seam) {
             return Some("the seams of its sheets swing faster than a position-based step can follow");
         }
-        let breaks = constraints.iter().any(|constraint| constraint.breaking.is_some());
+        let breaks = constraints.into_iter().any(|constraint| constraint.breaking.is_some());
         breaks.then_some("it breaks under load, which position-based motion does not know")
     }
 }
 
 /// What visitors may do to an exhibit by touch or mouse.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TouchPermission {
     /// May visitors grab and drag bodies?
     pub permitted: bool,
     /// Largest force of a pointer grab, N.
     pub force: f64,
+    /// Bodies of which a grab drags all, each at the same point of its own, by the same way.
+    pub together: Vec<Vec<usize>>,
 }
 
 /// How a breath acts on an exhibit, besides what the site's configuration sets.

@@ -1,5 +1,6 @@
 //! Materials, moving bodies, wires and cords of an exhibit.
 
+use super::behavior::Motion;
 use soffio_geometry::bodies::MassProperties;
 use soffio_math::{DVec3, Pose};
 use soffio_multibody::articulation::Anchor;
@@ -68,6 +69,8 @@ pub struct Body {
     pub angular_damping: f64,
     /// Index of its material.
     pub material: usize,
+    /// Its own kind of motion, never [`Motion::Auto`]; `None` moves as the exhibit does.
+    pub moved_by: Option<Motion>,
 }
 
 /// A drawn cord: straight from point to point of several bodies. It has no mass, and nothing acts on it.

@@ -70,8 +70,11 @@ codes! {
     UNPLAYED = "E0264", "a timbre is not played by this motion";
     UNKNOWN_WIRE = "E0265", "no wire of this name";
     DYNAMICS_ONLY = "E0266", "an exhibit cannot move by positions";
-    BROKEN_TIMBRE = "E0267", "a timbre of the exhibit is not valid";
-    NO_FORCE = "E0268", "a timbre follows a force that its sound does not name";
+    MIXED_KINDS = "E0267", "joined bodies move by different kinds of motion";
+    UNKNOWN_SIGNAL = "E0268", "no signal of this name";
+    EXPRESSION = "E0269", "a text is no expression";
+    BROKEN_TIMBRE = "E0270", "a timbre of the exhibit is not valid";
+    NO_FORCE = "E0271", "a timbre follows a force that its sound does not name";
     BROKEN_MODEL = "E0301", "the model is broken";
     EXTENSION = "E0302", "the model requires an extension that is not supported";
     MODEL_LIMIT = "E0303", "the model exceeds a limit";

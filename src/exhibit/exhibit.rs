@@ -5,12 +5,14 @@ use std::sync::Arc;
 
 use super::behavior::{BreathTuning, IdleDampingSpec, Motion, SoundBinding, TouchPermission};
 use super::bodies::{Body, Cord, Material, MaterialPair, Wire};
+use super::chart::Chart;
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
 use super::model::Model;
 use super::paths::SIDECAR;
 use super::presentation::{Attract, Credit, Labels, TAKE};
 use super::shape_tracks;
+use super::signal::Signal;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Limit, Spring};
 use soffio_multibody::collision::{Collider, ColliderPair, Exclusion};
@@ -21,7 +23,7 @@ use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 ///
-/// It has 38 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
+/// It has 41 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
 /// has no state.
 #[derive(Clone, Debug)]
 pub struct Exhibit {
@@ -93,6 +95,10 @@ pub struct Exhibit {
     pub own_timbres: Vec<Arc<Preset>>,
     /// Triggers of the sounds.
     pub sounds: Vec<SoundBinding>,
+    /// Charts of what is measured.
+    pub charts: Vec<Chart>,
+    /// Signals, in the order of the file.
+    pub signals: Vec<Signal>,
     /// Attract script.
     pub attract: Attract,
     /// Label texts by language.

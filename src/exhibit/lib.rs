@@ -31,6 +31,7 @@
 pub mod animated_scale;
 mod behavior;
 mod bodies;
+pub mod chart;
 pub mod clock;
 pub mod codes;
 pub mod diagnostic;
@@ -49,6 +50,7 @@ mod resolve;
 pub mod schema;
 pub mod shape_tracks;
 pub mod sidecar;
+pub mod signal;
 mod source;
 pub mod view;
 

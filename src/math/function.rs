@@ -1,4 +1,4 @@
-//! Functions of time for a constraint's value and a spring's stiffness: number, keys, or wave, with two derivatives.
+//! Functions of time for a constraint's value and a spring's stiffness: number, keys, wave, or given from outside, with two derivatives.
 //!
 //! A constraint that follows f(t) needs ḟ in its velocity and f̈ in its acceleration, so both are exact here:
 //!
@@ -46,6 +46,13 @@ pub enum Function {
         /// rad at t = 0.
         phase: f64,
     },
+    /// Given from outside before each step: its value and its rate in the step.
+    Given {
+        /// Value.
+        value: f64,
+        /// Rate, per s.
+        rate: f64,
+    },
 }
 
 /// What happens between two keys.
@@ -84,6 +91,7 @@ impl Function {
     pub fn at(&self, t: f64) -> Jet3 {
         match self {
             Self::Constant(value) => Jet3 { value: *value, ..Jet3::default() },
+            Self::Given { value, rate } => Jet3 { value: *value, rate: *rate, acceleration: 0.0 },
             Self::Wave { mean, amplitude, period, phase } => {
                 let omega = 2.0 * PI / period;
                 let (s, c) = sincos(omega * t + phase);

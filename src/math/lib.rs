@@ -34,6 +34,7 @@
 //! assert!((soffio_math::amplitude_to_db(10.0) - 20.0).abs() < 1e-12);
 //! ```
 
+pub mod expression;
 pub mod function;
 pub mod lanes;
 pub mod noise;

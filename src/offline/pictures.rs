@@ -43,6 +43,7 @@ impl Pictures {
         let frame = FrameInput {
             poses: &snapshot.poses,
             dust: &snapshot.dust_particles,
+            curves: &snapshot.curves,
             view,
             size: self.size,
             exposure: 1.0,

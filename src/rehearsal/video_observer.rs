@@ -166,7 +166,8 @@ impl Worker {
             if self.stop.load(Ordering::Relaxed) {
                 return Ok(None);
             }
-            let picture = renderer.draw(&FrameInput { poses, dust: &[], view, size: SIZE, exposure: 1.0, time })?;
+            let picture =
+                renderer.draw(&FrameInput { poses, dust: &[], curves: &[], view, size: SIZE, exposure: 1.0, time })?;
             Ok(Some(Picture(picture.pixels().flat_map(|p| [p[0], p[1], p[2]]).collect())))
         };
         let pictures = moments.iter().map(|moment| draw(&moment.poses, moment.time).transpose());

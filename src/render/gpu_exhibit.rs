@@ -261,7 +261,7 @@ impl GpuExhibit {
         self.globals.set_lights(&self.lights, |i| {
             Mat4::from_cols(frames[i][0], frames[i][1], frames[i][2], Vec4::W).transpose()
         });
-        self.lines.fill(&self.start_poses, frame.poses, self.globals.eye, &mut self.segments);
+        self.lines.fill(&self.start_poses, frame.poses, frame.curves, self.globals.eye, &mut self.segments);
         self.outlines.update(&self.frames, &self.globals, frame.size);
         self.plate_shadows.update(&self.frames);
         if self.has_changed() {

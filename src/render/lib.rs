@@ -52,7 +52,7 @@
 //! let poses: Vec<_> = exhibit.bodies.iter().map(|body| body.pose).collect();
 //! let size = (1280, 720);
 //! let view = exhibit.view(f64::from(size.0) / f64::from(size.1));
-//! let frame = FrameInput { poses: &poses, dust: &[], view, size, exposure: 1.0, time: 0.0 };
+//! let frame = FrameInput { poses: &poses, dust: &[], curves: &[], view, size, exposure: 1.0, time: 0.0 };
 //! renderer.draw(&frame).expect("a picture").save("pendulum.png").expect("a writable folder");
 //! ```
 
@@ -62,7 +62,7 @@ use glam::Vec3;
 
 use soffio_exhibit::View;
 use soffio_math::Pose;
-use soffio_simulation::DustParticle;
+use soffio_simulation::{CurveView, DustParticle};
 
 mod bounce;
 mod casters;
@@ -241,6 +241,8 @@ pub struct FrameInput<'a> {
     pub poses: &'a [Pose],
     /// Dust particles.
     pub dust: &'a [DustParticle],
+    /// Curves of the exhibit's charts.
+    pub curves: &'a [CurveView],
     /// Camera.
     pub view: View,
     /// Size of the target, pixels.

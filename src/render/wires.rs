@@ -1,10 +1,12 @@
-//! Wires and cords as capsule segments, cut at their joints by the bisecting planes.
+//! Wires, cords, and curves of charts, as capsule segments, cut at their joints by the bisecting planes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 
+use soffio_exhibit::chart::Chart;
 use soffio_exhibit::{Cord, Exhibit, Wire};
-use soffio_math::Pose;
+use soffio_math::{DVec3, Pose};
+use soffio_simulation::{CURVE_POINTS, CurveView};
 
 /// A straight segment of a wire, in the world, in the layout of `wires.wgsl`.
 #[repr(C)]
@@ -22,27 +24,39 @@ pub(super) struct Segment {
     cut_b: Vec4,
 }
 
-/// The wires and cords of an exhibit.
+/// Perceptual roughness of a curve: ink on a board.
+const CURVE_ROUGHNESS: f32 = 0.6;
+
+/// The wires, cords and charts of an exhibit.
 pub(super) struct Lines {
     wires: Vec<Wire>,
     cords: Vec<Cord>,
+    charts: Vec<Chart>,
 }
 
 impl Lines {
     /// Those of an exhibit.
     pub(super) fn new(exhibit: &Exhibit) -> Self {
-        Self { wires: exhibit.wires.clone(), cords: exhibit.cords.clone() }
+        Self { wires: exhibit.wires.clone(), cords: exhibit.cords.clone(), charts: exhibit.charts.clone() }
     }
 
-    /// Number of their segments.
+    /// Most segments of all of them.
     pub(super) fn count(&self) -> usize {
         let points = self.wires.iter().map(|wire| wire.points.len()).chain(self.cords.iter().map(|c| c.points.len()));
-        points.map(|points| points.saturating_sub(1)).sum()
+        let curves: usize = self.charts.iter().map(|chart| chart.curves.len()).sum();
+        points.map(|points| points.saturating_sub(1)).sum::<usize>() + curves * (CURVE_POINTS - 1)
     }
 
     /// Fills `segments` with all of them at these poses, the farthest from the camera first. Bodies without a pose are at
     /// `rest`.
-    pub(super) fn fill(&self, rest: &[Pose], poses: &[Pose], eye: Vec3, segments: &mut Vec<Segment>) {
+    pub(super) fn fill(
+        &self,
+        rest: &[Pose],
+        poses: &[Pose],
+        curves: &[CurveView],
+        eye: Vec3,
+        segments: &mut Vec<Segment>,
+    ) {
         segments.clear();
         let pose = |body: usize| *poses.get(body).unwrap_or(&rest[body]);
         for wire in &self.wires {
@@ -54,6 +68,17 @@ impl Lines {
         for cord in &self.cords {
             let look = Look { radius: cord.radius, color: cord.color, metallic: 0.0, roughness: cord.roughness };
             look.draw(cord.points.len(), |i| cord.point(i, pose).as_vec3(), segments);
+        }
+        for curve in curves {
+            let Some(Chart { pose, size, radius, .. }) = self.charts.get(curve.chart) else { continue };
+            let thickness = f64::from(*radius);
+            let look = Look { radius: thickness, color: curve.color, metallic: 0.0, roughness: CURVE_ROUGHNESS };
+            let point = |i: usize| {
+                let [x, y] = curve.points[i].map(f64::from);
+                // On the board, not in it.
+                pose.point(DVec3::new(x * size[0], y * size[1], thickness)).as_vec3()
+            };
+            look.draw(curve.points.len().min(CURVE_POINTS), point, segments);
         }
         let distance = |s: &Segment| (0.5 * (s.a + s.b).truncate() - eye).length_squared();
         segments.sort_unstable_by(|x, y| distance(y).total_cmp(&distance(x)));

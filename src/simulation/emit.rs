@@ -4,6 +4,7 @@ use super::air::{AimedBreath, Air};
 use super::air_sound::AirSounds;
 use super::contact_sound::{ContactSound, SoundScene};
 use super::event::{Event, EventKind, EventSource};
+use super::motion::Motion;
 use super::motion_sound::MotionSounds;
 use super::rate::{DT, SAMPLES_PER_STEP};
 use super::sonify::AudioListener;
@@ -16,8 +17,8 @@ pub(crate) const LIST_CAPACITY: usize = 256;
 
 /// Everything in a step that events and sounds follow from.
 pub(crate) struct StepResult<'a> {
-    /// The dynamics after the step.
-    pub dynamics: &'a Dynamics,
+    /// The motion after the step.
+    pub motion: &'a Motion,
     /// Impacts of the step.
     pub impacts: &'a [Impact],
     /// The first body with invalid numbers.
@@ -74,10 +75,10 @@ impl Emitter {
 
     /// Adds the events and sounds of step number `step`, heard and seen from `view`.
     pub fn emit(&mut self, step: u64, view: &View, result: StepResult) {
-        let StepResult { dynamics, impacts, fault, air, breath } = result;
+        let StepResult { motion, impacts, fault, air, breath } = result;
         let listener = AudioListener::new(view);
         let start = step as f64 * DT;
-        let (exhibit, bodies) = (breath.exhibit, &dynamics.bodies);
+        let (exhibit, bodies) = (breath.exhibit, &motion.dynamics.bodies);
         let scene = SoundScene { exhibit, bodies, listener: &listener };
         for impact in impacts {
             let event = Event::impact(start, impact);
@@ -88,14 +89,15 @@ impl Emitter {
             insert(&mut self.events, event);
         }
         let sample = (step + 1) * SAMPLES_PER_STEP;
-        self.contact_sound.advance(sample, dynamics.contact_reports(), &scene, &mut self.sounds);
-        self.emit_breaks_and_triggers(start, exhibit, dynamics);
+        let contacts = motion.kinds().flat_map(|dynamics| dynamics.contact_reports());
+        self.contact_sound.advance(sample, contacts, &scene, &mut self.sounds);
+        motion.kinds().for_each(|dynamics| self.emit_breaks_and_triggers(start, exhibit, dynamics));
         if let Some(body) = fault {
             self.faults += 1;
             insert(&mut self.events, Event::fault(start, body, bodies));
         }
         self.air_sounds.update(sample, air, &breath, bodies, &listener, &mut self.sounds);
-        self.motion_sounds.update(sample, exhibit, dynamics, &listener, &mut self.sounds);
+        self.motion_sounds.update(sample, exhibit, motion, &listener, &mut self.sounds);
     }
 
     /// Adds the events of constraints and springs that broke or were triggered in the step from `start` (s).

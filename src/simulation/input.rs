@@ -190,7 +190,12 @@ pub enum MotionMode {
 impl MotionMode {
     /// Solver of an exhibit while the time budget allows it.
     pub fn of(exhibit: &Exhibit) -> Self {
-        match exhibit.motion {
+        Self::by(exhibit.motion)
+    }
+
+    /// Solver of a kind of motion while the time budget allows it.
+    pub(crate) fn by(motion: Motion) -> Self {
+        match motion {
             Motion::Dynamics | Motion::Auto { .. } => Self::Dynamic,
             Motion::PositionBased(PositionSolver::Relaxation) => Self::Procedural,
             Motion::PositionBased(PositionSolver::TreeSolve) => Self::PositionBased,

@@ -4,6 +4,7 @@ use super::air::AimedBreath;
 use super::step::Simulation;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::ConstraintKind;
+use soffio_multibody::dynamics::Dynamics;
 
 /// What is inspected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,13 +79,14 @@ impl Simulation {
     }
 
     fn joint_states(&self) -> Vec<JointState> {
-        let dynamics = &self.motion.dynamics;
-        let errors = dynamics.system().gaps(&dynamics.bodies);
-        let states = dynamics.joint_loads().into_iter().zip(errors).zip(dynamics.system().constraints());
+        let of_kind = |dynamics: &Dynamics| (dynamics.joint_loads(), dynamics.system().gaps(&dynamics.bodies));
+        let kinds: Vec<_> = self.motion.kinds().map(of_kind).collect();
+        let states = self.exhibit.constraints.iter().enumerate();
         states
-            .map(|((load, error), constraint)| {
+            .map(|(index, constraint)| {
+                let (loads, errors) = &kinds[self.motion.kind_of(constraint)];
                 let angle = matches!(constraint.kind, ConstraintKind::Orientation { .. });
-                JointState { error, angle, load: load.filter(|_| !angle) }
+                JointState { error: errors[index], angle, load: loads[index].filter(|_| !angle) }
             })
             .collect()
     }

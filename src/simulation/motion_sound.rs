@@ -1,11 +1,11 @@
 //! The motion of the body of each sound whose timbre follows it, as commands.
 
+use super::motion::Motion;
 use super::rate::DT;
 use super::sonify::AudioListener;
 use soffio_exhibit::{Exhibit, ForceOf};
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DVec3;
-use soffio_multibody::dynamics::Dynamics;
 use soffio_sound::{BodyMotion, MotionSound, SoundCommand};
 
 /// One sound that follows its body's motion.
@@ -46,12 +46,13 @@ impl MotionSounds {
         &mut self,
         sample: u64,
         exhibit: &Exhibit,
-        dynamics: &Dynamics,
+        motion: &Motion,
         listener: &AudioListener,
         out: &mut Vec<SoundCommand>,
     ) {
         for Following { sound, start, way } in &mut self.0 {
             let binding = &exhibit.sounds[*sound];
+            let dynamics = motion.of_body(binding.body);
             let RigidBody { position, velocity, angular_velocity, .. } = dynamics.bodies[binding.body];
             *way += velocity.length() * DT;
             let follows = &binding.follows;

@@ -111,6 +111,8 @@ pub struct PointerGrabs {
     /// F_max, N.
     force: f64,
     permitted: bool,
+    /// Bodies that each body is dragged together with, and where they start from it, m.
+    together: Vec<Vec<(usize, DVec3)>>,
 }
 
 impl PointerGrabs {
@@ -123,6 +125,7 @@ impl PointerGrabs {
             inverse_mass: [DMat3::ZERO; MAX_GRABS * MAX_GRABS],
             force: exhibit.touch.force,
             permitted: exhibit.touch.permitted,
+            together: (0..exhibit.bodies.len()).map(|body| together(exhibit, body)).collect(),
         }
     }
 
@@ -175,38 +178,47 @@ impl PointerGrabs {
         }
     }
 
-    /// v* of a grab whose point is at `point` (world, m), m/s.
-    fn desired_velocity(grab: &Grab, point: DVec3) -> DVec3 {
-        ((grab.goal - point) / TUNING.time_constant).clamp_length_max(TUNING.most_speed)
+    /// The first [`MAX_GRABS`] points of the bodies that are `own`, each with its goal (world, m): those of the grabs, and of bodies that are
+    /// dragged with them.
+    fn grabbed_points(&self, own: &[bool]) -> impl Iterator<Item = (GrabbedPoint, DVec3)> {
+        let Self { grabs, together, .. } = self;
+        let grabbed = grabs.iter().filter_map(|grab| Some((grab.grabbed?, grab.goal)));
+        let all = grabbed.flat_map(|(GrabbedPoint { body, point }, goal)| {
+            let others = together[body].iter();
+            let others = others.map(move |&(body, from)| (GrabbedPoint { body, point }, goal + from));
+            std::iter::once((GrabbedPoint { body, point }, goal)).chain(others)
+        });
+        all.filter(|(grabbed, _)| own[grabbed.body]).take(MAX_GRABS)
     }
 
-    /// Target positions of the points after `dt` seconds, for position-based motion.
-    pub fn position_targets(&mut self, bodies: &[RigidBody], dt: f64) -> &[GrabTarget] {
-        self.targets.clear();
-        for grab in &self.grabs {
-            if let Some(GrabbedPoint { body, point }) = grab.grabbed {
-                let now = bodies[body].pose().point(point);
-                self.targets.push(GrabTarget { body, point, target: now + dt * Self::desired_velocity(grab, now) });
-            }
+    /// Target positions of the points of bodies that are `own` after `dt` seconds, for position-based motion.
+    pub fn position_targets(&mut self, own: &[bool], bodies: &[RigidBody], dt: f64) -> &[GrabTarget] {
+        let mut targets = std::mem::take(&mut self.targets);
+        targets.clear();
+        for (GrabbedPoint { body, point }, goal) in self.grabbed_points(own) {
+            let now = bodies[body].pose().point(point);
+            targets.push(GrabTarget { body, point, target: now + dt * desired_velocity(goal, now) });
         }
+        self.targets = targets;
         &self.targets
     }
 
-    /// Adds the forces of the grabs (N, N m about each centre of mass) for a step of `dt` seconds of constrained dynamics.
-    pub fn apply_forces(&mut self, dynamics: &mut Dynamics, dt: f64, out: &mut [Vec6]) {
-        self.points.clear();
+    /// Adds the forces of the grabs on bodies that are `own` (N, N m about each centre of mass) for a step of `dt` seconds of
+    /// constrained dynamics.
+    pub fn apply_forces(&mut self, own: &[bool], dynamics: &mut Dynamics, dt: f64, out: &mut [Vec6]) {
+        let mut points = std::mem::take(&mut self.points);
+        points.clear();
         // v* − v without impulses, m/s.
         let mut errors = [DVec3::ZERO; MAX_GRABS];
-        for grab in &self.grabs {
-            if let Some(GrabbedPoint { body, point }) = grab.grabbed {
-                let state = &dynamics.bodies[body];
-                let now = state.pose().point(point);
-                let arm = now - state.position;
-                let velocity = state.velocity + state.angular_velocity.cross(arm);
-                errors[self.points.len()] = Self::desired_velocity(grab, now) - velocity;
-                self.points.push((body, now));
-            }
+        for (GrabbedPoint { body, point }, goal) in self.grabbed_points(own) {
+            let state = &dynamics.bodies[body];
+            let now = state.pose().point(point);
+            let arm = now - state.position;
+            let velocity = state.velocity + state.angular_velocity.cross(arm);
+            errors[points.len()] = desired_velocity(goal, now) - velocity;
+            points.push((body, now));
         }
+        self.points = points;
         let n = self.points.len();
         if n == 0 {
             return;
@@ -229,6 +241,18 @@ impl PointerGrabs {
             }
         }
     }
+}
+
+/// Bodies that are dragged together with a body, and where they start from it, m.
+fn together(exhibit: &Exhibit, body: usize) -> Vec<(usize, DVec3)> {
+    let lists = exhibit.touch.together.iter().filter(|list| list.contains(&body)).flatten();
+    let from = |other: usize| exhibit.bodies[other].pose.position - exhibit.bodies[body].pose.position;
+    lists.filter(|&&other| other != body).map(|&other| (other, from(other))).collect()
+}
+
+/// v* of a point (world, m) on its way to `goal`, m/s.
+fn desired_velocity(goal: DVec3, point: DVec3) -> DVec3 {
+    ((goal - point) / TUNING.time_constant).clamp_length_max(TUNING.most_speed)
 }
 
 /// Mean of the diagonal, 1/kg.

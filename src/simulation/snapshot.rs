@@ -1,11 +1,13 @@
 //! Snapshot: the state of one moment for pictures, traces and panels.
 
+use super::charts::CurveView;
 use super::dust_particles::DustParticle;
 use super::input::MotionMode;
 use super::step::Simulation;
 use soffio_detector::BlowEstimate;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::{DVec3, Pose};
+use soffio_multibody::dynamics::Dynamics;
 
 /// Diameter of the ring that marks a grab, picture heights.
 const GRAB_RING: f64 = 0.04;
@@ -78,6 +80,8 @@ pub struct Snapshot {
     pub breath: BreathView,
     /// Dust particles.
     pub dust_particles: Vec<DustParticle>,
+    /// Curves of the exhibit's charts, in their order.
+    pub curves: Vec<CurveView>,
     /// Turn of the camera from the exhibit's own view: to the right and up, rad.
     pub turn: [f64; 2],
     /// Numbers for staff.
@@ -97,12 +101,13 @@ impl Snapshot {
 
     /// As [`Self::interpolate`], into existing storage.
     pub fn set_between(&mut self, first: &Self, next: &Self, alpha: f64) {
-        let Self { step, time, poses, breath, dust_particles, turn, diagnostics } = self;
+        let Self { step, time, poses, breath, dust_particles, curves, turn, diagnostics } = self;
         (*step, *breath, *diagnostics) = (next.step, next.breath, next.diagnostics);
         // No interpolation over a reset.
         *time = if next.time < first.time { next.time } else { first.time + (next.time - first.time) * alpha };
         *turn = std::array::from_fn(|i| first.turn[i] + (next.turn[i] - first.turn[i]) * alpha);
         poses.clone_from(&next.poses);
+        curves.clone_from(&next.curves);
         dust_particles.clone_from(&next.dust_particles);
         for (pose, before) in poses.iter_mut().zip(&first.poses) {
             *pose = before.interpolate(pose, alpha);
@@ -134,14 +139,15 @@ impl Simulation {
                 meter: (self.breath.speed / FULL_METER).clamp(0.0, 1.0),
             },
             dust_particles: self.dust_particles.view().collect(),
+            curves: self.charts.view().collect(),
             turn: self.camera.turn,
             diagnostics: Diagnostics {
-                joint_error: self.motion.dynamics.joint_error(),
+                joint_error: self.motion.joint_error(),
                 energy: self.motion.dynamics.energy(),
                 impacts: self.emitter.impacts,
                 faults: self.emitter.faults,
-                substeps: self.motion.dynamics.substeps(),
-                operations: self.motion.dynamics.operations(),
+                substeps: self.motion.kinds().map(Dynamics::substeps).fold(0, u32::max),
+                operations: self.motion.kinds().map(Dynamics::operations).sum(),
                 wind_force: self.air.report.force,
                 mode: self.motion.mode,
                 grabs: self.motion.pointer_grabs.count(),

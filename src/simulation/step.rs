@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::aim_assist::{AimAssist, AimContext};
 use super::air::{AimedBreath, Air, BreathTiming};
 use super::camera::{Camera, DEFAULT_ASPECT};
+use super::charts::Charts;
 use super::dust_particles::{AirVelocity, DustParticles};
 use super::emit::{Emitter, StepResult};
 use super::event::Event;
@@ -12,6 +13,7 @@ use super::input::{Command, Settings, StepInput};
 use super::motion::Motion;
 use super::pointer_grabs::PickScene;
 use super::rate::{DT, SAMPLES_PER_STEP};
+use super::signals::Signals;
 use super::source::BreathState;
 use super::start::start_dynamics;
 use soffio_detector::AmbientSpread;
@@ -49,6 +51,8 @@ pub struct Simulation {
     pub(crate) aim_assist: AimAssist,
     pub(crate) air: Air,
     pub(crate) motion: Motion,
+    pub(crate) signals: Signals,
+    pub(crate) charts: Charts,
     pub(crate) emitter: Emitter,
     pub(crate) dust_particles: DustParticles,
 }
@@ -65,6 +69,8 @@ impl Simulation {
             motion: Motion::new(&exhibit, &settings),
             emitter: Emitter::new(&exhibit, &air),
             air,
+            signals: Signals::new(&exhibit),
+            charts: Charts::new(&exhibit),
             dust_particles: DustParticles::new(camera.view.target, settings.seed),
             camera,
             exhibit,
@@ -116,9 +122,11 @@ impl Simulation {
         self.update_aim(input);
         self.apply_wind();
         self.motion.apply_idle_damping(&self.exhibit, &self.settings, self.breath.speed > 0.0);
-        self.motion.dynamics.set_breath_speed(self.breath.speed);
+        self.motion.set_breath_speed(self.breath.speed);
+        self.compute_signals();
         let elapsed = self.clock.elapsed();
         let became_invalid = self.motion.advance(input, &self.exhibit, elapsed, &self.camera, &mut self.air.wind);
+        self.charts.advance(&self.exhibit.charts, &self.motion);
         self.emit_events_and_sounds(set_invalid.or(became_invalid));
         self.advect_particles();
         self.clock.step += 1;
@@ -154,6 +162,8 @@ impl Simulation {
     /// Returns the motion to its start, at time 0.
     fn restart(&mut self) {
         self.motion.restart(&self.exhibit, &self.settings_now());
+        self.signals = Signals::new(&self.exhibit);
+        self.charts = Charts::new(&self.exhibit);
         self.clock.start = self.clock.step;
     }
 
@@ -180,11 +190,23 @@ impl Simulation {
         air.apply_wind(aimed, timing, &motion.dynamics.bodies, &mut motion.wrenches);
     }
 
+    /// Computes the signals, and gives them to the springs that follow them.
+    fn compute_signals(&mut self) {
+        let Self { exhibit, settings, clock, breath, aim_assist, air, motion, signals, .. } = self;
+        if exhibit.signals.is_empty() {
+            return;
+        }
+        let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
+        let jet = aimed.jet(&air.jet_front);
+        let velocity = |point| air.wind.directed_velocity(jet.as_ref(), point) + air.wind.undirected_velocity(point);
+        signals.advance(&exhibit.signals, (clock.elapsed(), breath.speed), velocity, motion);
+    }
+
     /// Emits the events and sounds of the step; `fault`: the first body with invalid numbers.
     fn emit_events_and_sounds(&mut self, fault: Option<usize>) {
         let Self { exhibit, settings, clock, camera, breath, aim_assist, air, motion, emitter, .. } = self;
         let aimed = AimedBreath { exhibit, settings, aim: &aim_assist.aim, speed: breath.speed };
-        let result = StepResult { dynamics: &motion.dynamics, impacts: &motion.impacts, fault, air, breath: aimed };
+        let result = StepResult { motion, impacts: &motion.impacts, fault, air, breath: aimed };
         emitter.emit(clock.step, &camera.view, result);
     }
 
@@ -260,14 +282,14 @@ impl Simulation {
             aspect,
             exhibit: &self.exhibit,
             bodies: &self.motion.dynamics.bodies,
-            is_kinematic: self.motion.dynamics.system().kinematic(),
+            is_kinematic: &self.motion.is_kinematic,
         };
         self.motion.pointer_grabs.hit_test(at, &mut self.air.wind, &scene)
     }
 
     /// Whether a body is asleep: at rest, and skipped until a contact or force wakes it.
     pub fn sleeps(&self, body: usize) -> bool {
-        self.motion.dynamics.is_asleep(body)
+        self.motion.of_body(body).is_asleep(body)
     }
 
     /// The bodies' state, for tests that change it from outside; wakes them.
@@ -278,17 +300,23 @@ impl Simulation {
 
     /// Contacts with a normal force at the end of the last step.
     pub fn touching(&self) -> impl Iterator<Item = ContactReport> + '_ {
-        self.motion.dynamics.contact_reports()
+        self.motion.kinds().flat_map(|dynamics| dynamics.contact_reports())
     }
 
     /// Largest distance between the two points of any joint now, m.
     pub fn joint_error(&self) -> f64 {
-        self.motion.dynamics.joint_error()
+        self.motion.joint_error()
     }
 
     /// Kinetic and potential energy, J.
     pub fn energy(&self) -> f64 {
         self.motion.dynamics.energy()
+    }
+
+    /// Value of a signal in the last step; `None` where the exhibit has none of this name.
+    pub fn signal(&self, name: &str) -> Option<f64> {
+        let index = self.exhibit.signals.iter().position(|signal| signal.name == name)?;
+        Some(self.signals.value(index))
     }
 
     /// The view for a picture of this aspect (width over height), turned as in the last step.

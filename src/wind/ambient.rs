@@ -126,6 +126,7 @@ fn peak_speed(function: &Function) -> f64 {
         Function::Constant(value) => value.abs(),
         Function::Keys { keys, .. } => keys.iter().fold(0.0, |most, key| key.1.abs().max(most)),
         Function::Wave { mean, amplitude, .. } => mean.abs() + amplitude.abs(),
+        Function::Given { value, .. } => value.abs(),
     }
 }
 

@@ -67,7 +67,7 @@ fn turned(exhibit: &Exhibit, angle: f64) -> Vec<Pose> {
 
 fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], dust_particles: &'a [DustParticle]) -> FrameInput<'a> {
     let view = exhibit.view(f64::from(SIZE.0) / f64::from(SIZE.1));
-    FrameInput { poses, dust: dust_particles, view, size: SIZE, exposure: 1.0, time: 0.0 }
+    FrameInput { poses, dust: dust_particles, curves: &[], view, size: SIZE, exposure: 1.0, time: 0.0 }
 }
 
 #[test]

@@ -67,7 +67,7 @@ fn picture(look: Appearance, images: Vec<Image>) -> Option<image::RgbaImage> {
     assert!(imported.warnings.is_empty(), "{:?}", imported.warnings);
     let exhibit = Exhibit::from_model(imported.model);
     let view = View { eye: DVec3::new(0.15, 0.1, 1.1), target: DVec3::ZERO, up: DVec3::Y, fovy: 0.45 };
-    let frame = FrameInput { poses: &[], dust: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
+    let frame = FrameInput { poses: &[], dust: &[], curves: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
     // Before one even colour: no shadow of glass on a wall behind it, which is as dark as the factor alone says.
     let grey = |options: &mut soffio_render::Options| options.lighting.background = Some(glam::Vec3::splat(0.4));
     Some(renderer(&exhibit, grey)?.draw(&frame).expect("a picture"))

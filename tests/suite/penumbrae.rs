@@ -80,6 +80,7 @@ fn hung(case: &Case, closed: bool) -> Exhibit {
         linear_damping: 0.0,
         angular_damping: 0.0,
         material: 0,
+        moved_by: None,
     });
     // A pole far to the side makes the room large: the penumbra is as wide as the plate, and the shadow on the wall.
     exhibit.wires.push(Wire {
@@ -204,7 +205,8 @@ impl Wall {
         let mut sum = vec![0.0; (SIZE.0 * SIZE.1) as usize];
         for k in 0..exposures {
             let exposure = 1.0 - 0.013 * k as f32;
-            let frame = FrameInput { poses: &[pose], dust: &[], view: self.view, size: SIZE, exposure, time: 0.0 };
+            let frame =
+                FrameInput { poses: &[pose], dust: &[], curves: &[], view: self.view, size: SIZE, exposure, time: 0.0 };
             let picture = self.renderer.draw(&frame).expect("a picture");
             for (sum, pixel) in sum.iter_mut().zip(picture.pixels()) {
                 *sum += f64::from(linear(pixel.0[1]) / exposure) / f64::from(exposures);

@@ -61,7 +61,7 @@ fn a_bent_wire_has_no_light_seam_and_no_blot_where_its_segments_meet() {
         let exhibit = wire(points.collect(), 0.5 * width * pixel);
         let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = bare(Vec3::ONE)) else { return };
         let view = square_on(DVec3::Z * 2.0, DVec3::ZERO, fovy);
-        let frame = FrameInput { poses: &[], dust: &[], view, size, exposure: 1.0, time: 0.0 };
+        let frame = FrameInput { poses: &[], dust: &[], curves: &[], view, size, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         let relative: Vec<f32> = (0..size.0)
             .filter_map(|x| {
@@ -89,7 +89,7 @@ fn a_wire_that_points_at_the_camera_is_whole() {
     let exhibit = wire(vec![DVec3::new(0.01, 0.0, -0.5), DVec3::new(0.01, 0.0, 0.0), near], radius);
     let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = bare(Vec3::ONE)) else { return };
     let view = square_on(eye, DVec3::ZERO, 0.05);
-    let frame = FrameInput { poses: &[], dust: &[], view, size, exposure: 1.0, time: 0.0 };
+    let frame = FrameInput { poses: &[], dust: &[], curves: &[], view, size, exposure: 1.0, time: 0.0 };
     let picture = renderer.draw(&frame).expect("a picture");
     let pixel = 2.0 * (0.025f64).tan() * 2.5 / 96.0;
     for (x, y, p) in picture.enumerate_pixels() {
@@ -126,7 +126,8 @@ fn the_shadow_of_a_wire_is_unbroken_and_as_dark_as_the_closed_form_says() {
             let look = Lighting { tonemap: Tonemap::Clamp, ..Default::default() };
             let mut renderer = renderer(&exhibit, |options| options.lighting = look)?;
             let view = square_on((foot + gallery.z * 2.0).as_dvec3(), foot.as_dvec3(), 0.1);
-            let frame = FrameInput { poses: &[], dust: &[], view, size: (200, 160), exposure: 1.0, time: 0.0 };
+            let frame =
+                FrameInput { poses: &[], dust: &[], curves: &[], view, size: (200, 160), exposure: 1.0, time: 0.0 };
             Some(renderer.draw(&frame).expect("a picture"))
         });
         let [Some(with), Some(without)] = pictures else { return };
@@ -360,7 +361,7 @@ fn a_pane_of_glass_lets_its_colour_through_and_casts_a_lighter_shadow() {
     });
     let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = bare(Vec3::ONE)) else { return };
     let view = square_on(DVec3::Z * 4.0, DVec3::ZERO, 0.3);
-    let frame = FrameInput { poses: &[], dust: &[], view, size: (32, 32), exposure: 1.0, time: 0.0 };
+    let frame = FrameInput { poses: &[], dust: &[], curves: &[], view, size: (32, 32), exposure: 1.0, time: 0.0 };
     let seen = renderer.draw(&frame).expect("a picture").get_pixel(16, 16).0;
     for (code, base) in seen.into_iter().zip([0.5, 0.9, 0.6]) {
         let expected = 0.96 * 0.96 * base;

@@ -123,6 +123,7 @@ pub fn mobile() -> Exhibit {
             linear_damping: 0.0,
             angular_damping: 0.0,
             material: 0,
+            moved_by: None,
         })
         .collect();
     let mut wire = |name: &str, points: Vec<DVec3>, radius: f64| {
@@ -163,6 +164,7 @@ pub(crate) fn frame<'a>(exhibit: &Exhibit, poses: &'a [Pose], size: (u32, u32)) 
     FrameInput {
         poses,
         dust: &[],
+        curves: &[],
         view: exhibit.view(f64::from(size.0) / f64::from(size.1)),
         size,
         exposure: 1.0,
@@ -277,7 +279,7 @@ fn a_wire_thinner_than_a_pixel_is_an_unbroken_line_of_the_right_darkness() {
             Lighting { tonemap: Tonemap::Clamp, background: Some(Vec3::ONE), env_intensity: 0.0, ..Default::default() };
         let Some(mut renderer) = renderer(&exhibit, |options| options.lighting = look) else { return };
         let view = soffio_exhibit::View { eye: DVec3::Z * 2.0, target: DVec3::ZERO, up: DVec3::Y, fovy: 0.2 };
-        let frame = FrameInput { poses: &[], dust: &[], view, size, exposure: 1.0, time: 0.0 };
+        let frame = FrameInput { poses: &[], dust: &[], curves: &[], view, size, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         let ink: Vec<f32> =
             (8..152).map(|x| (0..80).map(|y| 1.0 - linear(picture.get_pixel(x, y).0[1])).sum::<f32>()).collect();

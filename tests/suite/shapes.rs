@@ -224,8 +224,15 @@ mod drawn {
             let t = f64::from(step) / 240.0;
             assert!((now.time - t).abs() < ROUNDING, "{} at {t}", now.time);
             if step % 160 == 40 {
-                let frame =
-                    FrameInput { poses: &now.poses, dust: &[], view, size: SIZE, exposure: 1.0, time: now.time };
+                let frame = FrameInput {
+                    poses: &now.poses,
+                    dust: &[],
+                    curves: &[],
+                    view,
+                    size: SIZE,
+                    exposure: 1.0,
+                    time: now.time,
+                };
                 let picture = renderer.draw(&frame).expect("a picture");
                 if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
                     picture.save(std::path::Path::new(&folder).join(format!("shape-{step}.png"))).expect("writable");

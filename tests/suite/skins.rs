@@ -100,6 +100,7 @@ fn exhibit(folder: &std::path::Path) -> Exhibit {
             linear_damping: 0.0,
             angular_damping: 0.0,
             material: 0,
+            moved_by: None,
         }
     };
     exhibit.bodies = [1, 2].map(body).to_vec();
@@ -168,7 +169,7 @@ fn a_skin_follows_the_bodies_that_carry_its_joints_as_the_formula_says() {
     ];
     let mut pictures = Vec::new();
     for (i, poses) in scenes.iter().enumerate() {
-        let frame = FrameInput { poses, dust: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
+        let frame = FrameInput { poses, dust: &[], curves: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
         let picture = renderer.draw(&frame).expect("a picture");
         if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
             picture.save(std::path::Path::new(&folder).join(format!("skin-{i}.png"))).expect("a writable folder");

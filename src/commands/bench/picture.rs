@@ -130,6 +130,7 @@ fn draw(
         let frame = FrameInput {
             poses: &moment.poses,
             dust: &moment.dust_particles,
+            curves: &moment.curves,
             view,
             size,
             exposure: 1.0,

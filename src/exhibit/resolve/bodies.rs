@@ -4,6 +4,7 @@ use super::super::diagnostic::Diagnostic;
 use super::super::sidecar::{self, Motion};
 use super::super::{Body, Wire, codes};
 use super::context::Context;
+use super::kinds::own_motion;
 use super::nail_paths::path_node;
 use super::nodes::rigid;
 use soffio_geometry::Moments;
@@ -158,6 +159,7 @@ impl Context<'_> {
                 linear_damping,
                 angular_damping,
                 material: material.unwrap_or(0),
+                moved_by: given.moved_by.map(own_motion),
             });
         }
         bodies.extend(self.sheet_bodies());
@@ -177,6 +179,7 @@ impl Context<'_> {
             linear_damping: 0.0,
             angular_damping: 0.0,
             material,
+            moved_by: None,
         }
     }
 

@@ -4,7 +4,7 @@ use super::super::diagnostic::{Diagnostic, quoted, similar_names};
 use super::super::fit;
 use super::super::sidecar::{self, ConstrainedPairs, Fit};
 use super::super::source::join;
-use super::super::{Wire, codes};
+use super::super::{Body, Wire, codes};
 use super::context::Context;
 use super::joints::pairs::{BodyPair, pairs as joined_pairs};
 use soffio_math::{DMat3, DVec3, PI, Pose, rotation};
@@ -116,9 +116,14 @@ impl Context<'_> {
     }
 
     /// Pairs that never collide, sorted.
-    pub(super) fn excluded_pairs(&mut self, constraints: &[Constraint], limits: &[Limit]) -> Vec<Exclusion> {
+    pub(super) fn excluded_pairs(
+        &mut self,
+        bodies: &[Body],
+        constraints: &[Constraint],
+        limits: &[Limit],
+    ) -> Vec<Exclusion> {
         let sidecar = self.sidecar;
-        let mut pairs: Vec<Exclusion> = Vec::new();
+        let mut pairs = self.pairs_of_other_kinds(bodies);
         if sidecar.collision.constrained_pairs == ConstrainedPairs::Exclude {
             let joined =
                 constraints.iter().flat_map(|c| joined_pairs(&c.kind).into_iter().map(|pair| (c.group(), pair)));
@@ -150,6 +155,15 @@ impl Context<'_> {
         pairs.sort_unstable();
         pairs.dedup();
         pairs
+    }
+
+    /// Pairs of bodies that different kinds of motion move.
+    fn pairs_of_other_kinds(&self, bodies: &[Body]) -> Vec<Exclusion> {
+        let free: Vec<usize> = (0..bodies.len()).filter(|&body| !self.is_kinematic(body)).collect();
+        let pairs = free.iter().flat_map(|&a| free.iter().map(move |&b| (a, b)));
+        let differ = |(a, b): &(usize, usize)| a < b && bodies[*a].moved_by != bodies[*b].moved_by;
+        let exclusion = |(a, b)| Exclusion { bodies: (Some(a), Some(b)), why: Excluded::OtherKind };
+        pairs.filter(differ).map(exclusion).collect()
     }
 
     fn exclude(&mut self, pairs: &mut Vec<Exclusion>, (a, b): BodyPair, why: Excluded, (reason, at): (&str, &str)) {

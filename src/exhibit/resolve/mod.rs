@@ -5,17 +5,20 @@
 //! sound, texts.
 
 mod bodies;
+mod charts;
 mod clock;
 mod colliders;
 mod context;
 mod cords;
 mod joints;
+mod kinds;
 mod materials;
 mod motion;
 mod nail_paths;
 mod nodes;
 mod picture;
 mod sheets;
+mod signals;
 mod sounds;
 mod surfaces;
 mod texts;
@@ -37,6 +40,7 @@ use super::sidecar::{self, Sidecar};
 use super::source::SidecarText;
 use super::{codes, paths, schema};
 use context::Context;
+use kinds::Joined;
 use nail_paths::add_path_nodes;
 use soffio_math::DVec3;
 use soffio_multibody::articulation::{Constraint, Spring};
@@ -124,7 +128,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         duration: f64::INFINITY,
         assembles: false,
         motion: Motion::Dynamics,
-        touch: TouchPermission { permitted: false, force: 0.0 },
+        touch: TouchPermission::default(),
         clock: None,
         integrator: Integrator::Auto,
         solver: Solver::Sparse,
@@ -142,6 +146,8 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         instruments: Vec::new(),
         own_timbres: Vec::new(),
         sounds: Vec::new(),
+        charts: Vec::new(),
+        signals: Vec::new(),
         attract: Attract::default(),
         labels: Labels::default(),
         credit: Credit::default(),
@@ -204,9 +210,12 @@ impl Context<'_> {
         self.check_gear_rings(&constraints);
         self.check_rank(&constraints, &drives);
         self.check_mass_ratios(&constraints, &bodies, &drives);
-        let excluded_pairs = self.excluded_pairs(&constraints, &limits);
+        let excluded_pairs = self.excluded_pairs(&bodies, &constraints, &limits);
         let colliders = self.colliders(&wires);
         let motion = self.motion(&constraints, &springs);
+        self.check_kinds(&bodies, &Joined { constraints: &constraints, limits: &limits, springs: &springs });
+        let charts = self.charts(&constraints);
+        let signals = self.signals(&springs);
         self.check_triggers(&constraints, &springs, &colliders);
         let wind_surfaces = self.wind_surfaces(&wires);
         let shelters = self.shelters(&wind_surfaces);
@@ -263,6 +272,8 @@ impl Context<'_> {
             instruments,
             own_timbres: self.own_timbres.presets(),
             sounds,
+            charts,
+            signals,
             attract,
             labels,
             credit: self.credit(),
@@ -329,7 +340,7 @@ impl Context<'_> {
 
     /// Permission and force of grabs.
     fn touch(&mut self, bodies: &[Body]) -> TouchPermission {
-        let given = self.sidecar.touch;
+        let given = &self.sidecar.touch;
         let weight: f64 = bodies.iter().map(|body| body.properties.mass * STANDARD_GRAVITY).sum();
         let force = given.force.map_or(STRENGTH * weight, |force| force.0);
         let force = if bodies.is_empty() { force } else { self.positive(force, "/touch/force") };
@@ -341,7 +352,7 @@ impl Context<'_> {
             "/touch/force",
             "twice the weight of all moving bodies",
         );
-        TouchPermission { permitted: given.permitted, force }
+        TouchPermission { permitted: self.sidecar.touch.permitted, force, together: self.together(bodies) }
     }
 
     /// Does the exhibit allow open constraints at the start?

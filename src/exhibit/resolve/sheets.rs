@@ -162,6 +162,7 @@ impl Context<'_> {
                     linear_damping: 0.0,
                     angular_damping: 0.0,
                     material,
+                    moved_by: None,
                 });
             }
             let [rows, columns] = grid.size;

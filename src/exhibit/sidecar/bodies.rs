@@ -32,6 +32,9 @@ pub struct Body {
     /// Does it move?
     #[serde(default)]
     pub motion: Motion,
+    /// How its motion is computed; by default as the exhibit's. Bodies that are joined move by one kind, and bodies of
+    /// different kinds do not collide.
+    pub moved_by: Option<OwnMotion>,
     /// Of a kinematic body: path of the node's origin in the world.
     pub path: Option<Path>,
     /// Of a kinematic body: how it follows the model's animation of its node.
@@ -77,6 +80,18 @@ pub enum Motion {
     Kinematic,
     /// Not at all.
     Static,
+}
+
+/// How the motion of a body is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OwnMotion {
+    /// Constrained dynamics.
+    Dynamics,
+    /// Positions first, joint by joint: the classical procedural motion. Not for gears and breakable constraints.
+    Procedural,
+    /// Positions first, all joints at once. Not for gears and breakable constraints.
+    PositionBased,
 }
 
 /// How a kinematic body follows the model's animation. Morph weights and scales of the same animation play with it.

@@ -209,6 +209,8 @@ pub struct Spring {
     pub b: Attachment,
     /// Length without force; by default the length in the model.
     pub rest_length: Option<Function<Length>>,
+    /// Instead of `rest_length`: the signal that gives it, m.
+    pub follows: Option<String>,
     /// Force per length.
     pub stiffness: Function<Stiffness>,
     /// Force per speed.
@@ -229,6 +231,8 @@ pub struct TorsionSpring {
     pub axle: Axle,
     /// Angle without torque, from the start; by default 0.
     pub rest_angle: Option<Function<Angle>>,
+    /// Instead of `rest_angle`: the signal that gives it, rad.
+    pub follows: Option<String>,
     /// Torque per angle.
     pub stiffness: Function<AngularStiffness>,
     /// Torque per angular velocity.

@@ -5,11 +5,13 @@
 //! are refused, except those that begin with `x_`, which are ignored, and old names ([`super::renamed`]), which cause a warning.
 
 mod bodies;
+mod chart;
 mod combinations;
 mod forces;
 mod function;
 mod joints;
 mod sheet;
+mod signal;
 mod surfaces;
 mod texts;
 mod timing;
@@ -23,11 +25,13 @@ use serde::Deserialize;
 use super::quantity::*;
 
 pub use bodies::*;
+pub use chart::*;
 pub use combinations::*;
 pub use forces::*;
 pub use function::*;
 pub use joints::*;
 pub use sheet::*;
+pub use signal::*;
 pub use surfaces::*;
 pub use texts::*;
 pub use timing::*;
@@ -94,6 +98,12 @@ pub struct Sidecar {
     /// Which motion of which body plays which sound.
     #[serde(default)]
     pub sound: Vec<Sound>,
+    /// Numbers that it computes while it moves; springs follow them.
+    #[serde(default)]
+    pub signal: Vec<Signal>,
+    /// Curves of what is measured, drawn on boards.
+    #[serde(default)]
+    pub chart: Vec<Chart>,
     /// What happens when nobody is there.
     #[serde(default)]
     pub attract: Attract,
@@ -156,13 +166,15 @@ pub enum MovedBy {
 }
 
 /// What visitors may do to the sculpture by touch or mouse.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Touch {
     /// May visitors grab and drag bodies?
     pub permitted: bool,
     /// Largest force of a grab; by default twice the weight of all moving bodies.
     pub force: Option<Force>,
+    /// Lists of bodies: who drags one of a list drags all of it, by the same way. They stand alike at the start.
+    pub together: Vec<Vec<String>>,
 }
 
 /// The hands of a clock: the kiosk sets them to the local time by turning the minute hand.
@@ -199,7 +211,7 @@ pub struct Turning {
 
 impl Default for Touch {
     fn default() -> Self {
-        Self { permitted: true, force: None }
+        Self { permitted: true, force: None, together: Vec::new() }
     }
 }
 

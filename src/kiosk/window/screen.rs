@@ -220,6 +220,7 @@ impl Screen {
         let picture = FrameInput {
             poses: &moment.poses,
             dust: &moment.dust_particles,
+            curves: &moment.curves,
             view: *view,
             size,
             exposure: 1.0,

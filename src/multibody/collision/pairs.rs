@@ -30,6 +30,8 @@ pub enum Excluded {
     Joined,
     /// The exhibit's sidecar.
     ByCurator,
+    /// Different kinds of motion move them.
+    OtherKind,
 }
 
 /// Why two colliders are not a pair.
@@ -52,6 +54,7 @@ impl fmt::Display for PairExclusion {
             Self::BothStill => write!(f, "both stand still"),
             Self::Excluded(Excluded::Joined) => write!(f, "joined by a constraint"),
             Self::Excluded(Excluded::ByCurator) => write!(f, "excluded by the curator"),
+            Self::Excluded(Excluded::OtherKind) => write!(f, "moved by different kinds of motion"),
             Self::Unreachable(apart) => write!(f, "out of reach by {:.1} mm", apart * 1e3),
         }
     }

@@ -13,7 +13,7 @@ use soffio_math::lanes::{Real, V3};
 use soffio_math::spatial::SpatialVector;
 use soffio_math::spatial::{Sym3, matrix};
 use soffio_math::spatial::{Vec6, add_scaled, vec6};
-use soffio_math::{DMat3, DVec3};
+use soffio_math::{DMat3, DVec3, Function};
 
 /// Damping rates of a body, 1/s: force −c m v, torque −c I ω.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -122,6 +122,14 @@ impl Springs {
     /// Whether there are no springs.
     pub fn is_empty(&self) -> bool {
         self.springs.is_empty()
+    }
+
+    /// Gives the rest length (m) or rest angle (rad) of a spring, and its rate, from now on. It acts where the spring was made with
+    /// [`Function::Given`]; others do not change.
+    pub fn give_rest(&mut self, spring: usize, value: f64, rate: f64) {
+        if let Some(Spring { rest_length: length @ Function::Given { .. }, .. }) = self.springs.get_mut(spring) {
+            *length = Function::Given { value, rate };
+        }
     }
 
     /// Sets which bodies sleep; their springs are left out.

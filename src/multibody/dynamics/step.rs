@@ -476,6 +476,14 @@ impl Dynamics {
         self.breath.now = speed;
     }
 
+    /// Gives the rest length (m) or rest angle (rad) of a spring whose rest is [`soffio_math::Function::Given`], and its rate, from
+    /// the next step on.
+    pub fn give_rest(&mut self, spring: usize, value: f64, rate: f64) {
+        self.equations.springs.give_rest(spring, value, rate);
+        // Accelerations of the state that the step begins with contain the old force.
+        self.equations.evaluated = self.equations.evaluated.min(Evaluated::Factor);
+    }
+
     /// Must be called after [`Dynamics::bodies`] were changed from outside: wakes all bodies and validates them.
     pub fn disturb(&mut self) {
         self.wake_all();

@@ -10,7 +10,7 @@ use super::surface::Pyramid;
 use super::tones::{Tone, begin_formula, control_formula, render_formula};
 use crate::SoundSurface;
 use crate::shared::Shared;
-use crate::timbre::{Expression, FilterKind, Inputs, Node, NoiseKind, Number, TextureKind};
+use crate::timbre::{FilterKind, Formula, Inputs, Node, NoiseKind, Number, TextureKind};
 use soffio_math::exp;
 
 /// Level below which an envelope ends: −120 dB, 24 dB below the steps of 16 bits.
@@ -24,7 +24,7 @@ pub(super) enum OperatorKind {
     Pink(Pink),
     Slow(Slow),
     Tone(Box<Tone>),
-    Formula(Expression),
+    Formula(Formula),
     Texture {
         line: Arc<Pyramid>,
         speed: Number,

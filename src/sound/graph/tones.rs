@@ -9,7 +9,7 @@
 
 use super::block::AudioBlock;
 use super::state::{Glide, OperatorState};
-use crate::timbre::{Expression, Fm, Inputs, Number, Oscillator, Waveform};
+use crate::timbre::{Fm, Formula, Inputs, Number, Oscillator, Waveform};
 use soffio_math::{PI, sin};
 
 /// Highest frequency of a tone over the sample rate: what is above would alias.
@@ -113,7 +113,7 @@ fn jump(phase: f64, step: f64) -> f64 {
 }
 
 /// Begins a formula at the inputs of this moment.
-pub(super) fn begin_formula(formula: &Expression, state: &mut OperatorState, inputs: &Inputs) {
+pub(super) fn begin_formula(formula: &Formula, state: &mut OperatorState, inputs: &Inputs) {
     state.phases = [0.0; 2];
     for (glide, input) in state.glides.iter_mut().zip(&formula.inputs) {
         *glide = Glide::at(inputs.of(*input));
@@ -121,7 +121,7 @@ pub(super) fn begin_formula(formula: &Expression, state: &mut OperatorState, inp
 }
 
 /// Lets a formula glide to the inputs of this moment.
-pub(super) fn control_formula(formula: &Expression, state: &mut OperatorState, inputs: &Inputs) {
+pub(super) fn control_formula(formula: &Formula, state: &mut OperatorState, inputs: &Inputs) {
     for (glide, input) in state.glides.iter_mut().zip(&formula.inputs) {
         glide.towards(inputs.of(*input));
     }
@@ -129,7 +129,7 @@ pub(super) fn control_formula(formula: &Expression, state: &mut OperatorState, i
 
 /// The next samples of a formula of these blocks; `period` is that of the samples, s.
 pub(super) fn render_formula(
-    formula: &Expression,
+    formula: &Formula,
     state: &mut OperatorState,
     inputs: &[usize],
     blocks: &[AudioBlock],

@@ -90,10 +90,7 @@ impl Node {
             Self::Oscillator(Oscillator { phase, .. }) => {
                 need((0.0..=1.0).contains(phase), "phase", "must be 0 to 1, of a period")
             }
-            Self::Function(function) => {
-                need(function.r#in.len() <= MAX_NODES, "in", "must name at most 16 nodes")?;
-                function.compile().map(drop).map_err(|problem| ("of", problem))
-            }
+            Self::Function(function) => function.compile().map(drop).map_err(|problem| ("of", problem)),
             Self::Map(Map { points, .. }) => {
                 let count = (2..=MOST_POINTS).contains(&points.len());
                 need(count, "points", "a curve has 2 to 64 points [in, out]")?;

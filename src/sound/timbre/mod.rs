@@ -6,7 +6,7 @@
 
 mod check;
 mod error;
-mod expression;
+mod formula;
 mod limits;
 mod node;
 mod number;
@@ -17,7 +17,7 @@ mod source;
 mod specimen;
 
 pub use error::TimbreError;
-pub(super) use expression::{Expression, MOST_INPUTS};
+pub(super) use formula::{Formula, MOST_INPUTS};
 pub use limits::{LONGEST_DELAY, MAX_NODES, MAX_PARTIALS};
 pub use node::{
     Delay, Env, Filter, FilterKind, Fm, Function, Map, Mix, Node, Noise, NoiseKind, Oscillator, Texture, TextureKind,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::expression::Expression;
+use super::formula::Formula;
 use super::number::{Input, Number, Player, one};
 use super::source::Modal;
 
@@ -155,7 +155,7 @@ pub struct Function {
     pub r#in: Vec<String>,
     /// The formula, such as `"low * max(0, body_spin - 2) + 0.1 * sin(2 * pi * 3 * t)"`: signs + − * / % ^, the functions sin,
     /// cos, exp, ln, sqrt, tanh, abs, floor, min, max, clamp(x, low, high) and step(edge, x), the nodes of `in`, inputs, the time
-    /// t since the sound began in s, and pi.
+    /// t since the sound began in s, and pi. Names of nodes in it have letters, digits and underscores.
     pub of: String,
     /// Linear gain of the node's output.
     #[serde(default = "one")]
@@ -337,8 +337,8 @@ impl Function {
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(crate) fn compile(&self) -> Result<Expression, String> {
-        Expression::parse(&self.of, &self.r#in)
+    pub(crate) fn compile(&self) -> Result<Formula, String> {
+        Formula::parse(&self.of, &self.r#in)
     }
 }
 

@@ -19,7 +19,7 @@ use soffio_math::pow;
 /// Most factors, and most terms, of one number: bounds the work of a reading.
 pub const MAX_FACTORS: usize = 3;
 /// Bound of the magnitude of every number, in its own unit: beyond it a file is wrong.
-pub(super) const BOUND: f64 = 1e12;
+const BOUND: f64 = 1e12;
 
 /// A number of a preset: fixed, or following the motion.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq)]

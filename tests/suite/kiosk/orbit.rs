@@ -343,7 +343,15 @@ fn after_a_drag_the_silhouette_is_where_the_formula_says() {
         drag(&mut stage, &controls, way);
         wait(&mut stage, &controls, FOLLOWED);
         let view = exhibit.view(aspect).orbited(stage.snapshot().turn);
-        let frame = soffio_render::FrameInput { poses: &poses, dust: &[], view, size: SIZE, exposure: 1.0, time: 0.0 };
+        let frame = soffio_render::FrameInput {
+            poses: &poses,
+            dust: &[],
+            curves: &[],
+            view,
+            size: SIZE,
+            exposure: 1.0,
+            time: 0.0,
+        };
         let picture = renderer.draw(&frame).expect("a picture");
         if let Ok(folder) = std::env::var("SOFFIO_PICTURES") {
             picture.save(std::path::Path::new(&folder).join(format!("orbit-{i}.png"))).expect("a writable folder");

@@ -160,9 +160,9 @@ fn forces_of_joints_and_springs_are_heard_only_where_the_sound_names_them() {
     let twice: Vec<f32> = heard(heavier, 2)[RATE as usize..].iter().map(|x| *x as f32).collect();
     assert!((rms(&twice) / distance - 2.0).abs() < 1e-3);
     for (more, input, code, words) in [
-        ("", "joint_force", "E0268", "force of a constraint"),
-        ("", "tension", "E0268", "force of a spring"),
-        ("force_of = \"cord\"", "tension", "E0268", "force of a spring"),
+        ("", "joint_force", "E0271", "force of a constraint"),
+        ("", "tension", "E0271", "force of a spring"),
+        ("force_of = \"cord\"", "tension", "E0271", "force of a spring"),
         ("force_of = \"chord\"", "joint_force", "E0239", "did you mean \"cord\"?"),
     ] {
         let report = with(more, input).expect_err("not valid").to_text();
@@ -213,7 +213,7 @@ fn twenty_broken_files_are_reported_at_their_lines() {
         let found = report
             .diagnostics
             .iter()
-            .find(|d| d.code == "E0267")
+            .find(|d| d.code == "E0270")
             .unwrap_or_else(|| panic!("{to}: {}", report.to_text()));
         let place = found.location.as_ref().unwrap_or_else(|| panic!("{to}: no place"));
         assert!(place.file.ends_with("timbres/whirr.toml"), "{to}: {}", place.file);
@@ -235,12 +235,12 @@ fn a_timbre_that_does_not_fit_its_body_or_its_trigger_is_reported() {
         "timbre = 1\nname = \"scratch\"\ndescription = \"\"\n[node.out]\ntype = \"texture\"\nkind = \"image\"\n";
     let report = refused("scratch", "", &[("scratch.toml", picture)]).to_text();
     assert!(report.contains("E0264") && report.contains("on = \"slide\""), "{report}");
-    assert!(report.contains("E0267") && report.contains("picture"), "{report}");
+    assert!(report.contains("E0270") && report.contains("picture"), "{report}");
     let report = refused("wirr", "", &[("whirr.toml", WHIRR)]).to_text();
     assert!(report.contains("E0263") && report.contains("did you mean \"whirr\""), "{report}");
     // Unused files are checked too.
     let report = refused("whirr", "", &[("whirr.toml", WHIRR), ("other.toml", "timbre = 1\n")]).to_text();
-    assert!(report.contains("E0267") && report.contains("other.toml"), "{report}");
+    assert!(report.contains("E0270") && report.contains("other.toml"), "{report}");
 }
 
 #[test]

@@ -44,6 +44,7 @@ impl Context<'_> {
             Function::Constant(value) => *value,
             Function::Keys { keys, .. } => keys.iter().fold(f64::INFINITY, |least, key| least.min(key.1)),
             Function::Wave { mean, amplitude, .. } => mean - amplitude.abs(),
+            Function::Given { value, .. } => *value,
         };
         self.not_negative(least, at);
         function
@@ -74,6 +75,7 @@ pub(super) fn shown(function: &Function, unit: &str) -> String {
             if *repeat { ", repeated" } else { "" },
             keys.first().map_or(0.0, |key| key.1)
         ),
+        Function::Given { .. } => "follows a signal".to_owned(),
         Function::Wave { mean, amplitude, period, .. } => format!("{mean} ± {amplitude} {unit}, every {period} s"),
     }
 }

@@ -17,7 +17,12 @@ impl Context<'_> {
         if !self.joinable(a.body, b.body, &given.name, at) {
             return;
         }
+        self.one_rest(given.follows.as_deref(), given.rest_length.is_some(), "rest_length", at);
         let rest = match &given.rest_length {
+            _ if given.follows.is_some() => {
+                let length = self.reference_position(&a).distance(self.reference_position(&b));
+                Function::Given { value: length, rate: 0.0 }
+            }
             Some(rest) => self.function_from_zero(rest, &format!("{at}/rest_length")),
             None => self.reference_position(&a).distance(self.reference_position(&b)).into(),
         };
@@ -37,12 +42,25 @@ impl Context<'_> {
             return;
         }
         let rest = given.rest_angle.as_ref();
-        let rest = rest.map_or(Function::default(), |r| self.function(r, &format!("{at}/rest_angle")));
+        let mut rest = rest.map_or(Function::default(), |r| self.function(r, &format!("{at}/rest_angle")));
+        self.one_rest(given.follows.as_deref(), given.rest_angle.is_some(), "rest_angle", at);
+        if given.follows.is_some() {
+            rest = Function::Given { value: 0.0, rate: 0.0 };
+        }
         let stiffness = self.function_from_zero(&given.stiffness, &format!("{at}/stiffness"));
         let damping = given.damping.as_ref();
         let damping = damping.map_or(Function::default(), |d| self.function_from_zero(d, &format!("{at}/damping")));
         let units = [("rest_angle", "rad"), ("stiffness", "N m/rad"), ("damping", "N m s/rad")];
         self.push_spring(out, &header, SpringKind::Angular { measure }, [rest, stiffness, damping], units);
+    }
+
+    /// Reports a spring that follows a signal and has a rest of its own.
+    fn one_rest(&mut self, follows: Option<&str>, has_rest: bool, key: &str, at: &str) {
+        if let Some(signal) = follows.filter(|_| has_rest) {
+            let message = format!("it follows \"{signal}\", and has a {key} of its own");
+            let problem = Diagnostic::new(codes::WRONG_SHAPE, message);
+            self.report(&format!("{at}/{key}"), problem.help(format!("leave out follows or {key}")));
+        }
     }
 
     fn push_spring(

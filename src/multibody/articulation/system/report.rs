@@ -130,6 +130,14 @@ impl System {
         (0..self.rows.constraints.len()).filter(selected).map(|index| self.gap(index, &scene)).fold(0.0, f64::max)
     }
 
+    /// Largest error of these constraints at these bodies' state, m, of orientations rad; 0 for those not fully active or still
+    /// reclosing. `frames` is scratch, a matrix a body.
+    pub fn largest_gap_of(&self, constraints: &[usize], bodies: &[RigidBody], frames: &mut [DMat3]) -> f64 {
+        frames.iter_mut().zip(bodies).for_each(|(frame, body)| *frame = matrix(body.rotation));
+        let scene = BodyStates { bodies, frames, time: self.activity.time() };
+        constraints.iter().fold(0.0, |largest: f64, &index| largest.max(self.gap(index, &scene)))
+    }
+
     /// Error of each constraint at these bodies' state: m, of an orientation rad. 0 for those not fully active or
     /// still reclosing.
     pub fn gaps(&self, bodies: &[RigidBody]) -> Vec<f64> {
