@@ -6,8 +6,8 @@
 //! atom       = number | name | function "(" expression { "," expression } ")" | "(" expression ")"
 //! ```
 //!
-//! Functions: sin, cos, atan2(y, x), exp, ln, sqrt, tanh, abs, floor, min, max, clamp(x, low, high), step(edge, x) = 1 from the edge
-//! on, `rise`(x) = 10 x³ − 15 x⁴ + 6 x⁵ between 0 and 1 (0 below, 1 above), and `noise`(x, seed), Perlin's noise on the line. `pi`
+//! Functions: sin, cos, atan2(y, x), exp, ln, sqrt, tanh, abs, floor, min, max, clamp(x, low, high). step(edge, x) is 1 from the edge
+//! on. `rise`(x) = 10 x³ − 15 x⁴ + 6 x⁵ between 0 and 1 (0 below, 1 above), and `noise`(x, seed), Perlin's noise on the line. `pi`
 //! is π; angles are in radians. a % b is a remainder with the sign of b.
 //!
 //! Every result is finite: what has no value, as 1/0 or √−1, counts as 0, and nothing exceeds ±[`BOUND`].
