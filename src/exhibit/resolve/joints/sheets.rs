@@ -33,17 +33,25 @@ impl Context<'_> {
                 bending: self.not_negative(given.bending.0, &format!("{at}/bending")),
                 damping: self.not_negative(given.damping.0, &format!("{at}/damping")),
             };
-            self.join_rows(out, &header, grid, given.hem.as_deref());
+            // The body that bears the hem; `Some(None)` is the world.
+            let hem = match &given.hem {
+                None => None,
+                Some(name) => match self.node(name, &format!("{at}/hem"), "the hem of a sheet") {
+                    Some(node) => Some(self.owner[node]),
+                    None => continue,
+                },
+            };
+            self.join_rows(out, &header, grid, hem);
             self.join_springs(out, &header, grid, stiffnesses);
-            if let Some(hem) = &given.hem {
-                self.bend_hem(out, &header, grid, (hem, stiffnesses));
+            if let Some(owner) = hem {
+                self.bend_hem(out, &header, grid, (owner, stiffnesses));
             }
         }
         self.sheets = sheets;
     }
 
     /// Ball joints down the sheet, and those of its hem.
-    fn join_rows(&mut self, out: &mut Joints, header: &Header, grid: &SheetGrid, hem: Option<&str>) {
+    fn join_rows(&mut self, out: &mut Joints, header: &Header, grid: &SheetGrid, hem: Option<Option<usize>>) {
         let [_, columns] = grid.size;
         for (i, j) in grid.cells() {
             let at = grid.edge(i, j);
@@ -51,10 +59,8 @@ impl Context<'_> {
             let (b, part) = if i > 0 {
                 (self.on_body(Some(grid.body(i - 1, j)), at), format!("row-{i}-{j}"))
             } else {
-                let place = format!("{}/hem", header.at);
-                let Some(name) = hem else { continue };
-                let Some(node) = self.node(name, &place, "the hem of a sheet") else { return };
-                (self.on_body(self.owner[node], at), format!("hem-{j}"))
+                let Some(owner) = hem else { continue };
+                (self.on_body(owner, at), format!("hem-{j}"))
             };
             self.push(out, header, &part, ConstraintKind::PointToPoint { a, b }, None);
         }
@@ -94,11 +100,8 @@ impl Context<'_> {
     }
 
     /// Bending at the hem, where the sheet is sewn on flat.
-    fn bend_hem(&mut self, out: &mut Joints, header: &Header, grid: &SheetGrid, (hem, of): (&str, Stiffnesses)) {
-        let Some(owner) = self.node(hem, &format!("{}/hem", header.at), "the hem of a sheet").map(|n| self.owner[n])
-        else {
-            return;
-        };
+    fn bend_hem(&self, out: &mut Joints, header: &Header, grid: &SheetGrid, hem: (Option<usize>, Stiffnesses)) {
+        let (owner, of) = hem;
         for j in 0..grid.size[1] {
             let [width, height] = grid.extent(0, j);
             let stiffness = 2.0 * of.bending * width / height;
