@@ -80,6 +80,7 @@ fn hung(case: &Case, closed: bool) -> Exhibit {
         linear_damping: 0.0,
         angular_damping: 0.0,
         material: 0,
+        moved_by: None,
     });
     // A pole far to the side makes the room large: the penumbra is as wide as the plate, and the shadow on the wall.
     exhibit.wires.push(Wire {

@@ -123,6 +123,7 @@ pub fn mobile() -> Exhibit {
             linear_damping: 0.0,
             angular_damping: 0.0,
             material: 0,
+            moved_by: None,
         })
         .collect();
     let mut wire = |name: &str, points: Vec<DVec3>, radius: f64| {

@@ -100,6 +100,7 @@ fn exhibit(folder: &std::path::Path) -> Exhibit {
             linear_damping: 0.0,
             angular_damping: 0.0,
             material: 0,
+            moved_by: None,
         }
     };
     exhibit.bodies = [1, 2].map(body).to_vec();
