@@ -35,8 +35,8 @@ fn step(simulation: &mut Simulation, mode: MotionMode, grabs: &[PointerGrab]) {
 
 #[test]
 fn a_hand_that_is_invited_moves_what_it_takes() {
-    /// What a visitor sees at once, m.
-    const SEEN: f64 = 0.03;
+    /// What a visitor sees at once, m; a mallet has 24 mm to its instrument.
+    const SEEN: f64 = 0.02;
     let taken = [
         ("marionette", "ForearmLeft"),
         ("chains", "HeavyDisc"),

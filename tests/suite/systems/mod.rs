@@ -76,7 +76,7 @@ impl fmt::Display for Bar {
             Bound::AtLeast(bound) => ('≥', bound),
             Bound::AtMost(bound) => ('≤', bound),
         };
-        write!(f, "{} {:.3e} ({sign} {bound:.0e}{})", self.what, self.value, if self.passed() { "" } else { ", fails" })
+        write!(f, "{} {:.3e} ({sign} {bound:.3e}{})", self.what, self.value, if self.passed() { "" } else { ", fails" })
     }
 }
 
@@ -84,9 +84,12 @@ fn listed(bars: &[Bar]) -> String {
     bars.iter().map(Bar::to_string).collect::<Vec<_>>().join("; ")
 }
 
+/// Runs of exhibits as shipped, by exhibit, script, length and machine.
+type Shared<'a> = BTreeMap<(&'a str, &'a str, u64, bool), (Arc<Exhibit>, Run)>;
+
 /// Plays all rows of a table, each with its exhibit and its twin. Rows with the same visit share the run of the exhibit.
 fn prove(rows: &[Row]) {
-    let mut runs: BTreeMap<(&str, &str, u64, bool), (Arc<Exhibit>, Run)> = BTreeMap::new();
+    let mut runs = Shared::new();
     let mut wrong = Vec::new();
     for Row { system, exhibit, visit, without, shows } in rows {
         let (shipped, run) =

@@ -20,7 +20,7 @@ const PULL_STRIKER: &str = r#"{"t": 0.1, "grab": {"body": "Striker"}}
 {"t": 0.2, "drag": [0.6, 0.5]}
 {"t": 0.5, "release": true}"#;
 const THROW_PLATE: &str = r#"{"t": 0.1, "grab": {"body": "RedPlate"}}
-{"t": 0.2, "drag": [0.64, 0.4]}
+{"t": 0.2, "drag": [0.60, 0.4]}
 {"t": 1.0, "release": true}"#;
 const SCRATCH: &str = r#"{"t": 0.3, "grab": {"body": "Quill"}}
 {"t": 0.5, "drag": [0.35, 0.5]}
@@ -126,7 +126,7 @@ pub const ROWS: &[Row] = &[
     Row {
         system: "plates that ring",
         exhibit: "steel-fish",
-        visit: Visit::new(2.0, THROW_PLATE),
+        visit: Visit::new(2.5, THROW_PLATE),
         without: &[
             Cut::Row("sound", "fish-hit"),
             Cut::Row("sound", "red-hit"),
