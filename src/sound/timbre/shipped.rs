@@ -22,6 +22,7 @@ const SHIPPED: &[(&str, &str)] = &[
     ("ratchet", include_str!("../timbres/ratchet.toml")),
     ("rustle", include_str!("../timbres/rustle.toml")),
     ("creak", include_str!("../timbres/creak.toml")),
+    ("clatter", include_str!("../timbres/clatter.toml")),
     ("wind-wire", include_str!("../timbres/wind-wire.toml")),
     ("clock-tick", include_str!("../timbres/clock-tick.toml")),
     ("clock-bell", include_str!("../timbres/clock-bell.toml")),
