@@ -17,6 +17,7 @@ mod exhibits_in_motion;
 mod exports;
 mod fuzz;
 mod geared;
+mod harp;
 mod kiosk;
 mod loudness;
 mod mobiles;
