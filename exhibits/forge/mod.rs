@@ -19,6 +19,7 @@ pub mod cart;
 pub mod chains;
 pub mod gear_train;
 pub mod hang_it;
+pub mod harp;
 pub mod lobster_tree;
 pub mod loose_nail;
 pub mod marionette;
@@ -69,6 +70,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "chain-light/chain-light.glb", bytes: chains::light_glb() },
         Artifact { path: "chains/chains.glb", bytes: chains::glb() },
         Artifact { path: "gear-train/gear-train.glb", bytes: gear_train::glb() },
+        Artifact { path: "harp/harp.glb", bytes: harp::glb() },
         Artifact { path: "lobster-tree/lobster-tree.glb", bytes: lobster_tree::glb().1 },
         Artifact { path: "marionette/marionette.glb", bytes: marionette::glb() },
         Artifact { path: "noise-mobile/noise-mobile.glb", bytes: noise_mobile::glb().1 },
@@ -81,6 +83,7 @@ pub fn artifacts() -> Result<Vec<Artifact>, hound::Error> {
         Artifact { path: "wind-chimes/wind-chimes.glb", bytes: chimes::glb(&chimes::ALUMINIUM) },
         Artifact { path: "wind-chimes-bamboo/wind-chimes-bamboo.glb", bytes: chimes::glb(&chimes::BAMBOO) },
         Artifact { path: "wind-chimes-glass/wind-chimes-glass.glb", bytes: chimes::glb(&chimes::GLASS) },
+        Artifact { path: "wind-chimes-metals/wind-chimes-metals.glb", bytes: chimes::glb(&chimes::METALS) },
         Artifact { path: "blown-together/blown-together.glb", bytes: blown_together::glb() },
         Artifact { path: "hang-it/hang-it.glb", bytes: hang_it::glb() },
         Artifact { path: "loose-nail/loose-nail.glb", bytes: loose_nail::glb() },

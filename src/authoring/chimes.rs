@@ -1,4 +1,4 @@
-//! Wind chimes of aluminium, bamboo or glass: tubes in a circle around a wooden disc that a sail moves.
+//! Wind chimes of metals, bamboo or glass: tubes in a circle around a wooden disc that a sail moves.
 //!
 //! A tube hangs by a pin at 22.42 % of its length, a node of its first bending mode, so that the cord does not damp it.
 //! All tubes are struck at the same height, 40 % of their length from the lower end, which excites the first five
@@ -11,7 +11,7 @@ use super::hanging::{BEVEL, SheetMass, to_mass};
 use super::outline::{Polygon, area_and_centroid, ring};
 use super::piece::{BentWire, Piece, load, named};
 use super::solid::{Solid, extrude, revolve, revolve_ring};
-use super::stock_parts::{MM, ROUND, STEEL, WOOD, ceiling, part, write};
+use super::stock_parts::{BRASS, COPPER, MM, ROUND, STEEL, WOOD, ceiling, part, write};
 
 /// Height of the crown's hook, m.
 const HOOK_HEIGHT: f64 = 1.26;
@@ -36,20 +36,33 @@ const SAIL_MASS: f64 = 10e-3;
 /// Density of the sail's wood, kg/m³.
 const LIME_WOOD_DENSITY: f64 = 530.0;
 
+/// What tubes are cut from.
+pub struct TubeStock {
+    /// Outer diameter and wall, mm.
+    pub size: [f64; 2],
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Finish.
+    pub finish: Finish,
+    /// Optical properties if it is of glass.
+    pub glass: Option<Glass>,
+}
+
+impl TubeStock {
+    /// Distance of a tube's axis from the middle, m: the gap to the striker is the same for all.
+    fn circle(&self) -> f64 {
+        STRIKER_RADIUS + STRIKER_GAP + 0.5 * self.size[0] * MM
+    }
+}
+
 /// Design of a wind chime.
 pub struct ChimeDesign<'a> {
     /// Title of the scene.
     pub title: &'a str,
     /// Lengths of the tubes, mm, the longest first.
     pub lengths: &'a [f64],
-    /// Outer diameter and wall, mm.
-    pub tube: [f64; 2],
-    /// Density of the tubes, kg/m³.
-    pub density: f64,
-    /// Finish of the tubes.
-    pub tubes: Finish,
-    /// Optical properties of the tubes if they are of glass.
-    pub glass: Option<Glass>,
+    /// What the tubes are cut from, in turns: the first tube from the first, and so on around.
+    pub stocks: &'a [TubeStock],
     /// Finish of the sail.
     pub sail: Finish,
 }
@@ -58,10 +71,12 @@ pub struct ChimeDesign<'a> {
 pub const ALUMINIUM: ChimeDesign<'static> = ChimeDesign {
     title: "Wind chimes of aluminium",
     lengths: &[533.8, 503.4, 474.7, 434.6, 409.7, 374.9],
-    tube: [25.4, 1.65],
-    density: 2710.0,
-    tubes: Finish { name: "Brushed aluminium", color: [0.78, 0.79, 0.80], metallic: 1.0, roughness: 0.26 },
-    glass: None,
+    stocks: &[TubeStock {
+        size: [25.4, 1.65],
+        density: 2710.0,
+        finish: Finish { name: "Brushed aluminium", color: [0.78, 0.79, 0.80], metallic: 1.0, roughness: 0.26 },
+        glass: None,
+    }],
     sail: Finish { name: "Signal red", color: [0.55, 0.03, 0.018], metallic: 0.0, roughness: 0.45 },
 };
 
@@ -69,10 +84,12 @@ pub const ALUMINIUM: ChimeDesign<'static> = ChimeDesign {
 pub const BAMBOO: ChimeDesign<'static> = ChimeDesign {
     title: "Wind chimes of bamboo",
     lengths: &[497.0, 468.0, 440.0, 401.0, 377.0],
-    tube: [30.0, 4.0],
-    density: 660.0,
-    tubes: Finish { name: "Bamboo", color: [0.58, 0.42, 0.17], metallic: 0.0, roughness: 0.50 },
-    glass: None,
+    stocks: &[TubeStock {
+        size: [30.0, 4.0],
+        density: 660.0,
+        finish: Finish { name: "Bamboo", color: [0.58, 0.42, 0.17], metallic: 0.0, roughness: 0.50 },
+        glass: None,
+    }],
     sail: Finish { name: "Leaf green", color: [0.05, 0.17, 0.06], metallic: 0.0, roughness: 0.50 },
 };
 
@@ -80,21 +97,51 @@ pub const BAMBOO: ChimeDesign<'static> = ChimeDesign {
 pub const GLASS: ChimeDesign<'static> = ChimeDesign {
     title: "Wind chimes of glass",
     lengths: &[480.3, 453.0, 427.3, 391.4, 369.1],
-    tube: [20.0, 1.8],
-    density: 2500.0,
-    tubes: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
-    glass: Some(Glass {
-        wall_thickness: 1.8 * MM,
-        ior: 1.52,
-        transmission: 0.96,
-        attenuation_color: [0.36, 0.74, 0.70],
-        attenuation_distance: 0.012,
-    }),
+    stocks: &[TubeStock {
+        size: [20.0, 1.8],
+        density: 2500.0,
+        finish: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
+        glass: Some(Glass {
+            wall_thickness: 1.8 * MM,
+            ior: 1.52,
+            transmission: 0.96,
+            attenuation_color: [0.36, 0.74, 0.70],
+            attenuation_distance: 0.012,
+        }),
+    }],
     sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
 };
 
+/// Steel conduit, copper water pipe and brass tube: C5 of each, then G5 of each.
+pub const METALS: ChimeDesign<'static> = ChimeDesign {
+    title: "Wind chimes of three metals",
+    lengths: &[450.4, 425.4, 385.9, 367.1, 346.2, 314.1],
+    stocks: &[
+        TubeStock {
+            size: [17.9, 1.07],
+            density: STEEL,
+            finish: Finish { name: "Bright steel", color: [0.50, 0.51, 0.53], metallic: 1.0, roughness: 0.22 },
+            glass: None,
+        },
+        TubeStock {
+            size: [22.2, 1.14],
+            density: COPPER,
+            finish: Finish { name: "Copper", color: [0.80, 0.33, 0.19], metallic: 1.0, roughness: 0.28 },
+            glass: None,
+        },
+        TubeStock {
+            size: [19.05, 1.65],
+            density: BRASS,
+            finish: Finish { name: "Polished brass", color: [0.80, 0.57, 0.25], metallic: 1.0, roughness: 0.24 },
+            glass: None,
+        },
+    ],
+    sail: Finish { name: "Plum", color: [0.14, 0.02, 0.10], metallic: 0.0, roughness: 0.45 },
+};
+
 struct FinishIndices {
-    tubes: usize,
+    /// Of each stock.
+    tubes: Vec<usize>,
     sail: usize,
     wood: usize,
     iron: usize,
@@ -139,8 +186,9 @@ fn line(name: &'static str, length: f64) -> BentWire {
 
 /// The crown: a turned board on a bridle of three cords; its origin is the ring in which they meet. Long tubes are
 /// heavier, so the board is offset by `aside` from the ring to hang level.
-fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndices) -> Piece {
-    let rim = (circle + 0.5 * design.tube[0] * MM + 10.0 * MM) / MM;
+fn crown(design: &ChimeDesign, aside: DVec3, finishes: &FinishIndices) -> Piece {
+    let reach = |stock: &TubeStock| stock.circle() + 0.5 * stock.size[0] * MM;
+    let rim = (design.stocks.iter().map(reach).fold(0.0, f64::max) + 10.0 * MM) / MM;
     let top = 16.0;
     #[rustfmt::skip] // rows of a drawing
     let board = [
@@ -158,7 +206,7 @@ fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndic
     }
     let under = aside - BRIDLE_HEIGHT * DVec3::Y;
     let mut markers = vec![("CrownHook", DVec3::ZERO), ("CrownMiddle", under)];
-    for (k, at) in places(design.lengths.len(), circle).into_iter().enumerate() {
+    for (k, at) in places(design).into_iter().enumerate() {
         markers.push((named(format!("CrownHole{}", k + 1)), under + at));
     }
     Piece {
@@ -169,9 +217,11 @@ fn crown(design: &ChimeDesign, circle: f64, aside: DVec3, finishes: &FinishIndic
     }
 }
 
-/// Positions of the tubes about the centre: evenly on a circle, none exactly in front of another.
-fn places(count: usize, circle: f64) -> Vec<DVec3> {
+/// Positions of the tubes about the centre: evenly around it, none exactly in front of another.
+fn places(design: &ChimeDesign) -> Vec<DVec3> {
+    let count = design.lengths.len();
     let place = |k: usize| {
+        let circle = design.stocks[k % design.stocks.len()].circle();
         let angle = 2.0 * PI * (k as f64 / count as f64) + 1.05 * PI;
         DVec3::new(circle * cos(angle), 0.0, -circle * sin(angle))
     };
@@ -237,7 +287,7 @@ fn sail(finishes: &FinishIndices) -> Piece {
 pub fn glb(design: &ChimeDesign) -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = FinishIndices {
-        tubes: scene.finish(&design.tubes),
+        tubes: design.stocks.iter().map(|stock| scene.finish(&stock.finish)).collect(),
         sail: scene.finish(&design.sail),
         wood: scene.finish(&Finish {
             name: "Oiled cherry",
@@ -247,10 +297,11 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
         }),
         iron: scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 }),
     };
-    if let Some(glass) = &design.glass {
-        scene.clear(finishes.tubes, glass);
+    for (stock, &finish) in design.stocks.iter().zip(&finishes.tubes) {
+        if let Some(glass) = &stock.glass {
+            scene.clear(finish, glass);
+        }
     }
-    let circle = STRIKER_RADIUS + STRIKER_GAP + 0.5 * design.tube[0] * MM;
     let (top, drop) = (HOOK_HEIGHT * DVec3::Y, drop(design));
     let lengths = design.lengths.iter().map(|length| length * MM);
     let hanging: Vec<(Piece, Piece, f64)> = (1..)
@@ -258,8 +309,10 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
         .map(|(k, length)| {
             let down = drop - (STRIKE_FRACTION - HANGING_FRACTION) * length;
             let middle = (HANGING_FRACTION - 0.5) * length * DVec3::Y;
-            let pipe = tube(design.tube, length);
-            let own = part(named(format!("Pipe{k}")), pipe, middle, DQuat::IDENTITY, design.density, finishes.tubes);
+            let turn = (k - 1) % design.stocks.len();
+            let stock = &design.stocks[turn];
+            let (pipe, finish) = (tube(stock.size, length), finishes.tubes[turn]);
+            let own = part(named(format!("Pipe{k}")), pipe, middle, DQuat::IDENTITY, stock.density, finish);
             let markers = vec![(named(format!("Pin{k}")), DVec3::ZERO)];
             let tube = Piece { name: named(format!("Tube{k}")), parts: vec![own], wires: Vec::new(), markers };
             (cord(k, down, &finishes), tube, down)
@@ -267,9 +320,9 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
         .collect();
     let (striker, sail) = (striker(drop, &finishes), sail(&finishes));
     // The bridle's cords stay where they meet, so the offset of the board is found in three iterations.
-    let places = places(design.lengths.len(), circle);
+    let places = places(design);
     let aside = (0..3).fold(DVec3::ZERO, |aside, _| {
-        let mut whole = crown(design, circle, aside, &finishes).mass();
+        let mut whole = crown(design, aside, &finishes).mass();
         for ((cord, tube, _), at) in hanging.iter().zip(&places) {
             whole = whole.combine(&load(cord.mass().mass + tube.mass().mass, aside + *at));
         }
@@ -277,7 +330,7 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
         aside - DVec3::new(whole.center.x, 0.0, whole.center.z)
     });
     let under = top + aside - BRIDLE_HEIGHT * DVec3::Y;
-    let mut pieces = vec![(ceiling(finishes.iron), top), (crown(design, circle, aside, &finishes), top)];
+    let mut pieces = vec![(ceiling(finishes.iron), top), (crown(design, aside, &finishes), top)];
     for ((cord, tube, down), at) in hanging.into_iter().zip(places) {
         pieces.push((cord, under + at));
         pieces.push((tube, under + at - down * DVec3::Y));

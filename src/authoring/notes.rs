@@ -65,9 +65,9 @@ pub fn note(text: &str) -> Result<Note, Diagnostic> {
 
 /// Length (m) of a tube of 6061-T6 aluminium whose first bending mode has this frequency (Hz).
 pub fn length(frequency: f64) -> f64 {
-    let [outer, wall] = chimes::ALUMINIUM.tube.map(|mm| mm * MM);
+    let [outer, wall] = chimes::ALUMINIUM.stocks[0].size.map(|mm| mm * MM);
     let inner = outer - 2.0 * wall;
-    let (youngs_modulus, poisson, density) = (68.9e9, 0.33, chimes::ALUMINIUM.density);
+    let (youngs_modulus, poisson, density) = (68.9e9, 0.33, chimes::ALUMINIUM.stocks[0].density);
     // Cowper's shear coefficient of a tube.
     let m = (inner / outer) * (inner / outer);
     let whole = (1.0 + m) * (1.0 + m);
@@ -136,7 +136,7 @@ pub fn chime(id: &str, notes: &[Note]) -> Result<ExhibitFolder, Diagnostic> {
         );
     }
     out.push_str(between("[[constraint.point-to-point]]\nname = \"striker-on-crown\"", "[[collider]]"));
-    let radius = 0.5 * design.tube[0];
+    let radius = 0.5 * design.stocks[0].size[0];
     for (k, length) in (1..).zip(&lengths) {
         // The caps of a capsule are round: its straight part ends a radius before the tube does.
         let height = ((length - 2.0 * radius) * 10.0).round() / 10.0;

@@ -36,7 +36,7 @@ impl ExhibitGroup {
             ),
             group(
                 ["Chimes", "Klangspiele", "Carillons", "Campane a vento", "Campanillas", "풍경", "風鈴"],
-                &["wind-chimes", "wind-chimes-bamboo", "wind-chimes-glass", "strikers"],
+                &["wind-chimes", "wind-chimes-bamboo", "wind-chimes-glass", "wind-chimes-metals", "harp", "strikers"],
             ),
             group(
                 [

@@ -46,6 +46,8 @@ struct Modal {
     /// Cents.
     detune: f64,
     gain: Number,
+    /// Where the driving force acts, −1…1; without it, where the inputs say.
+    drive_at: Option<f64>,
     /// In the order of their decay, so that those of one group end together.
     modes: Vec<Mode>,
     /// Exponent of the outline on which plates' shapes are defined.
@@ -153,7 +155,8 @@ impl Instrument {
     /// Moves the point where a force in N acts on the body.
     pub fn set_drive_point(&self, bank: &mut Bank, inputs: &Inputs, step: DriveMove, sample_rate: f64) {
         let Some(modal) = &self.modal else { return };
-        let place = Place::new(inputs.position, modal.outline);
+        let position = modal.drive_at.map_or(inputs.position, |at| [at, 0.0]);
+        let place = Place::new(position, modal.outline);
         // A force of 1 N gives an impulse of 1/fs per sample.
         let level = modal.gain.at(inputs) / sample_rate;
         let gain = |i: usize| level * modal.modes[i].amplitude * modal.modes[i].shape.at(&place);
@@ -188,7 +191,7 @@ impl Modal {
         modes.sort_by(|a, b| a.decay.total_cmp(&b.decay));
         let contact = Contact::new(node.contact_radius, node.surface_modulus, &spec.material);
         let mass = spec.body.mass.max(MIN_MASS);
-        Ok(Self { contact, detune: node.detune, gain: node.gain, modes, outline, mass })
+        Ok(Self { contact, detune: node.detune, gain: node.gain, drive_at: node.drive_at, modes, outline, mass })
     }
 
     fn modes(

@@ -20,6 +20,7 @@ mod exports;
 mod expressions;
 mod fuzz;
 mod geared;
+mod harp;
 mod kiosk;
 mod loudness;
 mod mobiles;

@@ -179,11 +179,12 @@ fn a_breaths_momentum_turns_twelve_moons_by_a_quarter_in_the_time_of_its_design_
 }
 
 /// Hanging works that no breath may tangle.
-const HANGING: [&str; 9] = [
+const HANGING: [&str; 10] = [
     "twelve-moons",
     "wind-chimes",
     "wind-chimes-bamboo",
     "wind-chimes-glass",
+    "wind-chimes-metals",
     "chain-light",
     "chain-heavy",
     "lobster-tree",

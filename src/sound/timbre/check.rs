@@ -119,6 +119,8 @@ impl Modal {
         need((1..=MAX_PARTIALS).contains(&self.partials), "partials", "must be 1 to 1024")?;
         need(not_negative(self.support_loss), "support_loss", "must be 0 or more, 1/s")?;
         need(positive(self.contact_radius), "contact_radius", "must be above 0, m")?;
+        let on_body = |at: f64| (-1.0..=1.0).contains(&at);
+        need(self.drive_at.is_none_or(on_body), "drive_at", "must be -1 to 1 along the body")?;
         need(self.surface_modulus.is_none_or(positive), "surface_modulus", "must be above 0, Pa")?;
         need((0.0..=100.0).contains(&self.detune), "detune", "must be 0 to 100 cents")?;
         let length = |value: Option<f64>, field| need(value.is_none_or(positive), field, "must be above 0, m");

@@ -30,6 +30,8 @@ impl std::ops::Deref for Modal {
 pub struct Common {
     /// Node whose samples are a force in N that drives the partials, beside the hits.
     pub r#in: Option<String>,
+    /// Where that force acts along the body, −1…1; without it, where the hit or the slide is, and in the middle for wind.
+    pub drive_at: Option<f64>,
     /// Most partials, 1…1024; of more, the lowest are kept.
     #[serde(default = "most_partials")]
     pub partials: usize,
@@ -49,8 +51,8 @@ pub struct Common {
 }
 
 /// Keys of [`Common`].
-pub(super) const COMMON: [&str; 7] =
-    ["in", "partials", "support_loss", "contact_radius", "surface_modulus", "detune", "gain"];
+pub(super) const COMMON: [&str; 8] =
+    ["in", "drive_at", "partials", "support_loss", "contact_radius", "surface_modulus", "detune", "gain"];
 
 fn most_partials() -> usize {
     MAX_PARTIALS

@@ -1,6 +1,7 @@
 //! Sound of whole scenes. The synthesizer alone is tested in its own crate.
 
 mod contact;
+mod every_timbre;
 mod own_timbres;
 mod scratching;
 mod visit;
