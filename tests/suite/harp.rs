@@ -69,7 +69,7 @@ fn strongest(power: &[f64], n: usize, [low, high]: [f64; 2]) -> f64 {
     range.max_by(|a, b| power[*a].total_cmp(&power[*b])).expect("bins") as f64 * bin
 }
 
-/// What is struck, and how, where a hand lifts the k-th feather forwards within 0.6 s and lets go after a second.
+/// The strikes that follow where a hand lifts the k-th feather forwards within 0.6 s and lets go after a second.
 fn plucked(exhibit: &Arc<Exhibit>, k: usize) -> Vec<Strike> {
     let mut simulation = Simulation::new(exhibit.clone(), Settings { wind: false, ..Settings::default() });
     let name = format!("Plectrum{}", k + 1);
