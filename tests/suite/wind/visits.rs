@@ -15,14 +15,13 @@ const PICTURE: [f64; 2] = [1210.0, 680.0];
 const CHILD: f64 = 0.3e-3;
 
 /// What is to be moved by a breath.
-const SCULPTURES: [&str; 12] = [
+const SCULPTURES: [&str; 11] = [
     "steel-fish",
     "twelve-moons",
     "wind-chimes",
     "wind-chimes-bamboo",
     "wind-chimes-glass",
     "wind-chimes-metals",
-    "harp",
     "chain-light",
     "chain-heavy",
     "lobster-tree",
