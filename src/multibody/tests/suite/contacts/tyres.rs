@@ -67,7 +67,7 @@ fn the_side_force_grows_with_the_slip_angle_and_saturates() {
     for slip in [0.02f64, 0.05, 0.1, 0.15, 0.19, 0.25, 0.5, 1.0] {
         let (across, along, slip) = forces_at(slip.atan());
         let left = (1.0 - slip / FULL_SLIP).max(0.0);
-        let expected = MU * (1.0 - left.powi(3));
+        let expected = MU * (1.0 - left * left * left);
         println!("slip {slip:.4}: {across:.4} of the weight, {expected:.4} by the brush model, {along:.1e} along");
         assert!(
             (across.abs() / expected - 1.0).abs() < RATE,
