@@ -2,7 +2,7 @@
 
 use toml_edit::{DocumentMut, value};
 
-use super::ExhibitFolder;
+use super::{ExhibitFolder, FolderFile};
 
 /// A shipped exhibit that serves as a template.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,14 @@ impl Template {
         }
     }
 
+    /// Its own timbres, by their paths in the folder.
+    fn timbres(self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Pendulum => &[("timbres/swing.toml", include_str!("../../exhibits/pendulum/timbres/swing.toml"))],
+            Self::Clock => &[],
+        }
+    }
+
     /// A copy with another id. Its sidecar keeps the explanatory comments; level, joints and texts are those of the
     /// original.
     ///
@@ -44,7 +52,8 @@ impl Template {
         for (key, text) in [("model", format!("{id}.glb")), ("id", id.to_owned())] {
             document[key] = value(text);
         }
-        let files = ExhibitFolder::files_of(id, document.to_string(), model.to_vec());
+        let mut files = ExhibitFolder::files_of(id, document.to_string(), model.to_vec());
+        files.extend(self.timbres().iter().map(|&(name, text)| FolderFile { name: name.into(), bytes: text.into() }));
         Ok(ExhibitFolder { files, remarks: Vec::new() })
     }
 }

@@ -1,7 +1,7 @@
 //! Arguments that several commands share.
 
 use clap::ValueEnum;
-use soffio_exhibit::{Exhibit, Motion};
+use soffio_exhibit::Exhibit;
 use soffio_simulation::MotionMode;
 
 /// Solver on the command line.
@@ -22,7 +22,7 @@ impl SolverArg {
     /// Why an exhibit cannot move by this solver; `None` where it can.
     pub fn refusal(self, exhibit: &Exhibit) -> Option<String> {
         let by_positions = matches!(self, Self::Procedural | Self::PositionBased);
-        let why = Motion::refusal(&exhibit.constraints, &exhibit.springs).filter(|_| by_positions)?;
+        let why = exhibit.refusal().filter(|_| by_positions)?;
         Some(format!("{} moves by dynamics alone: {why}", exhibit.id))
     }
 

@@ -1,5 +1,6 @@
 //! How an exhibit moves, responds to breath and touch, and sounds.
 
+use super::bodies::Material;
 use soffio_math::{DVec3, Function};
 use soffio_multibody::articulation::{Constraint, ConstraintKind, Measure, Spring, SpringKind};
 use soffio_multibody::procedural::PositionSolver;
@@ -21,11 +22,16 @@ pub enum Motion {
 }
 
 impl Motion {
-    /// Why constraints and springs such as these move by dynamics alone, and not by positions; `None` where they move by both.
+    /// Why constraints, springs and surfaces of such materials move by dynamics alone, and not by positions; `None` where they move
+    /// by both.
     pub fn refusal<'a>(
         constraints: impl IntoIterator<Item = &'a Constraint> + Clone,
         springs: impl IntoIterator<Item = &'a Spring>,
+        materials: &[Material],
     ) -> Option<&'static str> {
+        if materials.iter().any(|material| material.full_slip > 0.0) {
+            return Some("its tyres grip by forces that grow with the slip, which position-based motion does not know");
+        }
         let mut all = constraints.clone().into_iter();
         if all.any(|constraint| matches!(constraint.kind, ConstraintKind::Coupling { .. })) {
             return Some("its gears pass on forces, which position-based motion does not know");

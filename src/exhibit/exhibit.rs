@@ -112,6 +112,11 @@ pub struct Exhibit {
 }
 
 impl Exhibit {
+    /// Why it moves by dynamics alone; `None` where it moves by positions too.
+    pub fn refusal(&self) -> Option<&'static str> {
+        Motion::refusal(&self.constraints, &self.springs, &self.materials)
+    }
+
     /// The warnings as a report with the sidecar's text, for display.
     pub fn warning_report(&self) -> Report {
         let file = self.folder.join(SIDECAR);

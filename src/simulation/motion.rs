@@ -10,7 +10,7 @@ use super::motion_group::{MotionGroup, advance};
 use super::pointer_grabs::{PickScene, PointerGrabs};
 use super::rate::{DT, STEPS_PER_SECOND};
 use super::start::{start_clock_setting, start_dynamics_of};
-use soffio_exhibit::{self as exhibit, Exhibit};
+use soffio_exhibit::Exhibit;
 use soffio_geometry::bodies::RigidBody;
 use soffio_math::DMat3;
 use soffio_math::spatial::Vec6;
@@ -78,7 +78,7 @@ impl Motion {
             dynamics,
             pointer_grabs: PointerGrabs::new(exhibit),
             mode: MotionMode::of(exhibit),
-            dynamics_only: exhibit::Motion::refusal(&exhibit.constraints, &exhibit.springs).is_some(),
+            dynamics_only: exhibit.refusal().is_some(),
             assembly: None,
             idle_damping: IdleDamping::default(),
             wrenches: vec![[0.0; 6]; exhibit.bodies.len()],

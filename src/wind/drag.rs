@@ -16,7 +16,7 @@
 //! | k_t | `across` | N s²/m² |
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x4};
+use fearless_simd::{Simd, SimdBase, f64x4};
 
 use super::breath::AIR_DENSITY;
 use super::patches::{Patch, PatchKind};
@@ -90,9 +90,20 @@ impl PatchBlock {
         all(simd, origin) + all(simd, spin).cross(self.point.get(All(simd)))
     }
 
-    /// Drag in the relative winds `v` (m/s), N.
+    /// Drag in the relative winds `v` (m/s), N; at most `most` kg/(m² s) of a patch's area times its wind.
     #[inline(always)]
-    pub fn drag<S: Simd>(&self, simd: S, v: V3<f64x4<S>>) -> V3<f64x4<S>> {
+    pub fn drag<S: Simd>(&self, simd: S, v: V3<f64x4<S>>, most: f64) -> V3<f64x4<S>> {
+        let lanes = All(simd);
+        let force = self.unbounded_drag(simd, v);
+        let bound = lanes.get(&self.area) * f64x4::splat(simd, most);
+        let (square, bound_square) = (force.dot(force), bound * bound * v.dot(v));
+        let one = f64x4::splat(simd, 1.0);
+        let share = square.simd_gt(bound_square).select((bound_square / square).sqrt(), one);
+        force * share
+    }
+
+    #[inline(always)]
+    fn unbounded_drag<S: Simd>(&self, simd: S, v: V3<f64x4<S>>) -> V3<f64x4<S>> {
         let lanes = All(simd);
         let axis = self.axis.get(lanes);
         let along = v.dot(axis);

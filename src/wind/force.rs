@@ -13,7 +13,7 @@
 //! damps translation; because plates have many patches, it damps rotation too.
 //!
 //! The air velocity w is the sum of the winds of `ambient.rs` and the breath. Breath, fans and draughts act only on patches
-//! that face their origin and are visible from it; the origin of the breath is the lips. Four further rules apply to the
+//! that face their origin and are visible from it; the origin of the breath is the lips. Five further rules apply to the
 //! force that the breath adds:
 //!
 //! ```text
@@ -25,6 +25,8 @@
 //! turbulence     F_i += β |F_i| H g(x_i − U_e t, t)    |g| < 1: seeded vector noise, carried downstream, nearly the same
 //!                                                      at neighbours. H: response of the patch, 1 to the normal part and
 //!                                                      C_f/C_D to the tangential part. So |F_random| < β |F|
+//! light bodies   |F_i| G ≤ m A_i |v| / (A Δt)          a patch's share of the mass loses at most its relative wind in a
+//!                                                      step Δt; only thin cloth in fast air comes near
 //! bound          Σ |F_i| ≤ ρ Q v₀                      v₀: source speed of the fastest air that arrives; a breath cannot
 //!                                                      push harder than its own momentum flow
 //! gain           F_i ← G F_i                           after the bound
@@ -51,6 +53,9 @@ use soffio_math::spatial::{Vec6, add_wrench, angular, linear, vec6};
 /// β where nothing else is set: upper bound of the random part of a breath's force on a patch, as a share of it. With the noise
 /// below, the force on a face fluctuates by a fifth, as that of a jet whose speed fluctuates by a tenth.
 pub const TURBULENCE: f64 = 0.6;
+
+/// Time for which the force of one call acts, s: the step of the simulation.
+const STEP: f64 = 1.0 / 240.0;
 
 /// Noise g of a breath's turbulence.
 struct Eddies {
@@ -243,6 +248,9 @@ impl WindField {
         let solid = surface.patches.first().is_some_and(|patch| patch.kind == PatchKind::OneSided);
         // 1/√G on a solid.
         let undirected_share = jet.filter(|_| solid).map_or(1.0, |jet| 1.0 / jet.gain.max(1.0).sqrt());
+        // A force that acts for a whole step must not turn the relative wind round: a light body would gain energy.
+        let gain = jet.map_or(1.0, |jet| jet.gain.max(1.0));
+        let most = body.properties.mass / (surface.area * STEP * gain);
         let (mut force, mut moment) = (all(simd, DVec3::ZERO), all(simd, DVec3::ZERO));
         let mut breath_sum = [0.0; 6];
         let mut power = f64x4::splat(simd, 0.0);
@@ -259,7 +267,7 @@ impl WindField {
                 None => still,
                 Some(air) => still + by_lane(simd, |k| to_body * air.ambient[first + k]),
             };
-            let drag = block.drag(simd, ambient);
+            let drag = block.drag(simd, ambient, most);
             force += drag;
             moment += block.moments(simd, drag);
             let arrives = jet.zip(air).map(|(jet, air)| (jet, air, &air.breath[first..first + WIDTH]));
@@ -274,9 +282,9 @@ impl WindField {
             let (mut wind, mut drag_before) = (ambient, drag);
             if undirected_share < 1.0 {
                 wind -= by_lane(simd, |k| (1.0 - undirected_share) * (to_body * air.undirected[first + k]));
-                drag_before = block.drag(simd, wind);
+                drag_before = block.drag(simd, wind, most);
             }
-            let added = block.drag(simd, wind + arriving) - drag_before;
+            let added = block.drag(simd, wind + arriving, most) - drag_before;
             for (k, air) in breath.iter().enumerate().filter(|(_, air)| air.source_speed > 0.0) {
                 let patch = &surface.patches[first + k];
                 let added = lane(&added, k);
@@ -321,7 +329,7 @@ impl WindField {
 
     /// Sum of the patches' areas of a surface, m².
     pub fn area(&self, surface: usize) -> f64 {
-        self.surfaces[surface].patches.iter().map(|patch| patch.area).sum()
+        self.surfaces[surface].area
     }
 
     /// Sum of the undirected winds at a point (world, m), m/s.

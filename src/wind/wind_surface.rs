@@ -50,6 +50,8 @@ pub(crate) struct WindSurface {
     pub clear_sides: Vec<[bool; 2]>,
     /// The last occluder of each patch: of the breath's rays, then of each ambient wind's.
     hints: Vec<Cell<Hint>>,
+    /// Sum of the patches' areas, m².
+    pub area: f64,
     /// Groups of patches for the undirected wind.
     pub groups: Vec<PatchGroup>,
     coefficients: DragCoefficients,
@@ -72,6 +74,7 @@ impl WindSurface {
             clear_sides: patches.iter().map(|patch| clear_of_own_body(occluders, surface.body, patch)).collect(),
             hints: vec![Cell::default(); (winds + 1) * patches.len()],
             groups,
+            area: patches.iter().map(|patch| patch.area).sum(),
             blocks: patches.chunks(WIDTH).map(|block| PatchBlock::new(block, &coefficients)).collect(),
             patches,
             coefficients,

@@ -478,7 +478,7 @@ fn dynamics_and_position_based_motion_are_compared_in_numbers_a_table_and_a_pict
     let summary = compare(&["--out", "apart.csv", "--plot", "apart.png"]);
     let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}: {summary}"));
     assert_eq!((&summary["solver"], &summary["steps"]), (&"position-based".into(), &Value::from(720)));
-    assert!(number("rms_m") > 0.0 && number("rms_m") <= number("max_m") && number("max_m") < 0.2, "{summary}");
+    assert!(number("rms_m") > 0.0 && number("rms_m") <= number("max_m") && number("max_m") < 0.6, "{summary}");
     assert!(number("rms_deg") > 0.0 && number("rms_deg") <= number("max_deg"), "{summary}");
     assert!(number("apart_1mm_s") > 0.0 && number("energy_max_j") >= number("energy_rms_j"), "{summary}");
     assert_eq!(summary["faults"], serde_json::json!([0, 0]));

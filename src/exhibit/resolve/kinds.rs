@@ -90,7 +90,7 @@ impl Context<'_> {
             let own = joined.constraints.iter().filter(|constraint| constraint.kind.acts_on(body));
             let springs = joined.springs.iter().filter(|spring| spring.kind.acts_on(body));
             if let Some(Motion::PositionBased(_)) = bodies[body].moved_by
-                && let Some(why) = Motion::refusal(own, springs)
+                && let Some(why) = Motion::refusal(own, springs, &[])
             {
                 let message = format!("body \"{}\" moves by dynamics alone: {why}", given.node);
                 let problem = Diagnostic::new(codes::DYNAMICS_ONLY, message);

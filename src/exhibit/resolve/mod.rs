@@ -329,7 +329,7 @@ impl Context<'_> {
             self.report("/solver/budget", problem.help("leave it out, or write motion = \"auto\""));
         }
         if let Motion::PositionBased(_) = motion
-            && let Some(why) = Motion::refusal(constraints, springs)
+            && let Some(why) = Motion::refusal(constraints, springs, &self.materials)
         {
             let problem = Diagnostic::new(codes::DYNAMICS_ONLY, format!("this exhibit moves by dynamics alone: {why}"));
             self.report("/solver/motion", problem.help("write motion = \"dynamics\" or \"auto\""));

@@ -61,7 +61,7 @@ impl Context<'_> {
             }
         }
         let finest = pictured.iter().map(Pictured::pixel).filter(|pixel| *pixel > 0.0).reduce(f64::min)?;
-        let [width, height] = half.map(|half| ((2.0 * half / finest).ceil() as usize).clamp(FEWEST, MOST));
+        let [width, height] = half.map(|half| ((2.0 * half / finest).round() as usize).clamp(FEWEST, MOST));
         let count = width * height;
         let mut grid = Grid { width, height, values: vec![0.0; count], upward: vec![f64::NEG_INFINITY; count] };
         let to_node = model.nodes[node].world.inverse();

@@ -27,7 +27,9 @@ fn steps(seconds: f64) -> usize {
 fn loaded(made: &ExhibitFolder) -> Arc<Exhibit> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for FolderFile { name, bytes } in &made.files {
-        std::fs::write(folder.path().join(name), bytes).expect("a writable folder");
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a writable folder");
+        std::fs::write(path, bytes).expect("a writable folder");
     }
     let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
     assert!(exhibit.warnings.is_empty(), "{}", exhibit.warning_report().to_text());

@@ -63,6 +63,6 @@ fn a_harder_hit_on_the_works_own_instrument_is_louder() {
         let audition = Audition { target: AuditionTarget::Exhibit(0), speed, pan: 0.0 };
         play(voice.synth(&fish, None)(RATE), &[hit(0, &audition, 0)]).iter().sum::<f64>()
     };
-    let (soft, hard) = (energy(0.1), energy(0.2));
+    let (soft, hard) = (energy(0.02), energy(0.04));
     assert!(soft > SILENCE && hard > HARDER * soft, "{soft} and {hard}");
 }

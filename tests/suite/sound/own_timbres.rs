@@ -247,16 +247,23 @@ fn a_timbre_that_does_not_fit_its_body_or_its_trigger_is_reported() {
 fn a_saved_timbre_is_loaded_again_and_a_broken_one_leaves_the_exhibit_on_show() {
     /// Far longer than the debounce time and a load: only a watcher that misses the change takes so long.
     const LONG: Duration = Duration::from_secs(20);
+    // Folders whose names begin with a dot are not offered, and temporary ones do.
     let folder = folder("whirr", "", &[("whirr.toml", WHIRR)]);
-    let path = folder.path().to_path_buf();
+    let path = folder.path().join("wheel");
+    std::fs::create_dir_all(path.join("timbres")).expect("writable");
+    for file in ["model.glb", "exhibit.toml", "timbres/whirr.toml"] {
+        std::fs::copy(folder.path().join(file), path.join(file)).expect("a copy");
+    }
     let shelf = CatalogLoader::new(&ExhibitSource::One(path.clone()), &path, true);
-    assert!(matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(_))));
-    folder.write("timbres/whirr.toml", WHIRR.replace("scale = 40", "scale = 80").as_bytes());
+    let first = shelf.wait(LONG);
+    assert!(matches!(first, Some(CatalogEvent::Listed(_))), "it is listed first");
+    folder.write("wheel/timbres/whirr.toml", WHIRR.replace("scale = 40", "scale = 80").as_bytes());
     let Some(CatalogEvent::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
     let power = spectrum(&heard(Arc::unwrap_or_clone(loaded), 2)[RATE as usize..], 4800);
     assert!(power[80] > 1e3 * power[90], "an octave higher");
-    assert!(matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(_))));
-    folder.write("timbres/whirr.toml", WHIRR.replace("type = \"fm\"", "type = \"mf\"").as_bytes());
+    let listed = shelf.wait(LONG);
+    assert!(matches!(listed, Some(CatalogEvent::Listed(_))), "it is listed again");
+    folder.write("wheel/timbres/whirr.toml", WHIRR.replace("type = \"fm\"", "type = \"mf\"").as_bytes());
     let Some(CatalogEvent::Rejected(_, report)) = shelf.wait(LONG) else {
         panic!("the change is noticed, nothing shown")
     };
@@ -269,7 +276,7 @@ fn motion_is_told_to_the_synth_only_where_a_timbre_follows_it() {
         let (model, sidecar) = spinning(timbre, "");
         let folder = Folder::exhibit(&model, &sidecar.replace("on = \"motion\"", &format!("on = \"{on}\"")));
         std::fs::create_dir_all(folder.path().join("timbres")).expect("writable");
-        folder.write("timbres/whirr.toml", WHIRR.as_bytes());
+        folder.write("wheel/timbres/whirr.toml", WHIRR.as_bytes());
         let loaded = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
         let mut simulation = Simulation::new(Arc::new(loaded), Settings::default());
         simulation.step(&StepInput::default());

@@ -203,6 +203,16 @@ impl Run {
         self.sound_of(|sound| !matches!(sound, SoundCommand::Wind(_) | SoundCommand::Motion(_)))
     }
 
+    /// The sound of what slides alone.
+    pub fn slides_alone(&self) -> Sound {
+        self.sound_of(|sound| matches!(sound, SoundCommand::Slide(_)))
+    }
+
+    /// The sound of the wind alone.
+    pub fn wind_alone(&self) -> Sound {
+        self.sound_of(|sound| matches!(sound, SoundCommand::Wind(_)))
+    }
+
     fn sound_of(&self, plays: impl Fn(&SoundCommand) -> bool) -> Sound {
         let mut synth = Synth::new(SAMPLE_RATE, &self.visited.instruments, 1).expect("shipped timbres");
         synth.set_dry(true);

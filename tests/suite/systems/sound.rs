@@ -149,7 +149,7 @@ pub const ROWS: &[Row] = &[
         visit: Visit::new(1.3, SCRATCH),
         without: &[Cut::Row("sound", "scratch")],
         shows: |run| {
-            let sound = run.sound();
+            let sound = run.slides_alone();
             vec![
                 at_most(-90.0, "level at rest, dB", sound.level(0.0, 0.29)),
                 at_least(AUDIBLE, "level while it slides, dB", sound.level(0.5, 1.2)),
@@ -162,7 +162,7 @@ pub const ROWS: &[Row] = &[
         visit: Visit::new(2.0, BREATH),
         without: &[Cut::Row("sound", "air")],
         shows: |run| {
-            let sound = run.sound();
+            let sound = run.wind_alone();
             vec![
                 at_most(-90.0, "level before the breath, dB", sound.level(0.0, 0.99)),
                 at_least(AUDIBLE, "level in it, dB", sound.level(1.2, 1.9)),

@@ -14,7 +14,7 @@ pub(super) struct MotionChoice {
 
 /// Motion of an exhibit as far as it allows another one; logs where it does not move as the command line says.
 fn allowed(fixed: Option<MotionMode>, exhibit: &Exhibit) -> Motion {
-    let Some(why) = Motion::refusal(&exhibit.constraints, &exhibit.springs) else { return exhibit.motion };
+    let Some(why) = exhibit.refusal() else { return exhibit.motion };
     if fixed.is_some_and(|mode| mode != MotionMode::Dynamic) {
         tracing::warn!("{} moves by dynamics alone: {why}", exhibit.id);
     }

@@ -338,3 +338,16 @@ fn the_air_over_a_surface_is_as_loud_as_its_area_and_the_sixth_power_of_its_spee
         assert!((calm.noise()[0].power / expected - 1.0).abs() < ROUNDING);
     }
 }
+
+#[test]
+fn drag_stops_a_light_sheet_at_most_and_never_turns_it_round() {
+    // A sheet of 1 m² and 69 g, as of silk, and one of 10 kg, in 40 m/s: the force of a step of 1/240 s.
+    const STEP: f64 = 1.0 / 240.0;
+    for (mass, expected) in [(0.069, 0.069 * 40.0 / STEP), (10.0, 0.5 * AIR_DENSITY * C_D * 1600.0)] {
+        let mut body = turned(DVec3::ZERO, soffio_math::DQuat::IDENTITY);
+        body.properties.mass = mass;
+        let force = force_in(40.0 * DVec3::Z, sheet(0, face(1.0), 64), body).z;
+        assert!((force / expected - 1.0).abs() < 1e-9, "{mass} kg: {force} N, not {expected}");
+        assert!(force * STEP / mass <= 40.0 * (1.0 + 1e-9), "it would fly faster than the air");
+    }
+}
