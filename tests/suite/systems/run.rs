@@ -203,7 +203,7 @@ impl Run {
         self.sound_of(|sound| !matches!(sound, SoundCommand::Wind(_) | SoundCommand::Motion(_)))
     }
 
-    /// The sound of what slides alone.
+    /// The sound of slides alone.
     pub fn slides_alone(&self) -> Sound {
         self.sound_of(|sound| matches!(sound, SoundCommand::Slide(_)))
     }
