@@ -460,7 +460,7 @@ own_timbre() {
     own_tone 2000 >"$exhibit/timbres/tone.toml"
     within 15 grep -q 'shows windy-corner\|reloaded' "$workdir/own-timbre.err" || sleep 3
     after=$(tones)
-    own_tone 2000 | sed 's/"fm"/"mf"/' >"$exhibit/timbres/tone.toml"
+    own_tone 2000 | sed 's/"fm"/"fmm"/' >"$exhibit/timbres/tone.toml"
     within 15 grep -q 'did you mean "fm"' "$workdir/own-timbre.err" || true
     bar "own timbre: broken" "$(grep -c 'did you mean "fm"' "$workdir/own-timbre.err") >= 1" \
         "$(grep -o 'timbres/tone.toml:[0-9]*' "$workdir/own-timbre.err" | head -1) is reported"

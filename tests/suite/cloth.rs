@@ -194,8 +194,8 @@ fn a_cantilever_bends_by_force_times_length_cubed_over_three_ei() {
 
 #[test]
 fn a_sheet_shears_by_force_over_stiffness() {
-    // Outer columns have seams on one side only. The stretch of the rows spreads the load but for shear lag: 1.4 % at most.
-    const SHEAR: f64 = 2e-2;
+    // Outer columns have seams on one side only. The stretch of the rows spreads the load but for shear lag: 2.3 % at most.
+    const SHEAR: f64 = 3e-2;
     let cloth = Cloth { cells: [8, 6], gravity: 0.0, damping: 2e-3, ..STRIP };
     let (mut dynamics, [rows, columns]) = (cloth.dynamics(), cloth.cells);
     let force = 2e-3;

@@ -263,7 +263,7 @@ fn a_saved_timbre_is_loaded_again_and_a_broken_one_leaves_the_exhibit_on_show() 
     assert!(power[80] > 1e3 * power[90], "an octave higher");
     let listed = shelf.wait(LONG);
     assert!(matches!(listed, Some(CatalogEvent::Listed(_))), "it is listed again");
-    folder.write("wheel/timbres/whirr.toml", WHIRR.replace("type = \"fm\"", "type = \"mf\"").as_bytes());
+    folder.write("wheel/timbres/whirr.toml", WHIRR.replace("type = \"fm\"", "type = \"fmm\"").as_bytes());
     let Some(CatalogEvent::Rejected(_, report)) = shelf.wait(LONG) else {
         panic!("the change is noticed, nothing shown")
     };
@@ -276,7 +276,7 @@ fn motion_is_told_to_the_synth_only_where_a_timbre_follows_it() {
         let (model, sidecar) = spinning(timbre, "");
         let folder = Folder::exhibit(&model, &sidecar.replace("on = \"motion\"", &format!("on = \"{on}\"")));
         std::fs::create_dir_all(folder.path().join("timbres")).expect("writable");
-        folder.write("wheel/timbres/whirr.toml", WHIRR.as_bytes());
+        folder.write("timbres/whirr.toml", WHIRR.as_bytes());
         let loaded = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
         let mut simulation = Simulation::new(Arc::new(loaded), Settings::default());
         simulation.step(&StepInput::default());
