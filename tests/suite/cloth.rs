@@ -212,7 +212,8 @@ fn a_sheet_shears_by_force_over_stiffness() {
     let found = |i: usize| dynamics.bodies[cloth.cell(i, 2)].rotation.z.asin() * 2.0;
     let mean = (0..rows).map(found).sum::<f64>() / rows as f64;
     assert!((mean / expected - 1.0).abs() < SHEAR, "the rows shear by {mean} rad in the mean, not {expected}");
-    for i in 0..rows {
+    // The last row is the one that is pulled (Saint-Venant).
+    for i in 0..rows - 1 {
         assert!((found(i) / expected - 1.0).abs() < LAG, "row {i} shears by {} rad, not {expected}", found(i));
     }
 }
