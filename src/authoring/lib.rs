@@ -60,18 +60,6 @@ pub struct FolderFile {
     pub bytes: Vec<u8>,
 }
 
-impl FolderFile {
-    /// Writes it into an exhibit folder, with the folders that its path names.
-    ///
-    /// # Errors
-    /// The folder cannot be written.
-    pub fn write(&self, exhibit_folder: &std::path::Path) -> std::io::Result<()> {
-        let path = exhibit_folder.join(&self.name);
-        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-        std::fs::write(path, &self.bytes)
-    }
-}
-
 /// The files of a new exhibit, not yet written to disk.
 #[derive(Clone, Debug, Default)]
 pub struct ExhibitFolder {

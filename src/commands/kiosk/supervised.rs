@@ -72,8 +72,10 @@ pub fn built_in() -> Option<BuiltIn> {
         let folder = tempfile::tempdir().map_err(|error| error.to_string())?;
         let inside = folder.path().join("pendulum");
         std::fs::create_dir(&inside).map_err(|error| error.to_string())?;
-        for file in &made.files {
-            file.write(&inside).map_err(|error| error.to_string())?;
+        for soffio_authoring::FolderFile { name, bytes } in &made.files {
+            let path = inside.join(name);
+            path.parent().map_or(Ok(()), std::fs::create_dir_all).map_err(|error| error.to_string())?;
+            std::fs::write(path, bytes).map_err(|error| error.to_string())?;
         }
         let exhibit = exhibit::load(&inside).map_err(|error| error.to_string())?;
         Ok::<_, String>(BuiltIn { exhibit: Arc::new(exhibit), _folder: folder })

@@ -6,7 +6,7 @@ use soffio_authoring::drawing::outlines;
 use soffio_authoring::notes::{self, chime, note};
 use soffio_authoring::plate_mobile::{self, Metal, Outline, sized};
 use soffio_authoring::template::Template;
-use soffio_authoring::{ExhibitFolder, starter};
+use soffio_authoring::{ExhibitFolder, FolderFile, starter};
 use soffio_exhibit::{self as exhibit, Exhibit, Report};
 use soffio_math::DVec3;
 use soffio_math::noise::Random;
@@ -26,7 +26,11 @@ fn steps(seconds: f64) -> usize {
 /// The exhibit of what is made, without a warning.
 fn loaded(made: &ExhibitFolder) -> Arc<Exhibit> {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    made.files.iter().for_each(|file| file.write(folder.path()).expect("a writable folder"));
+    for FolderFile { name, bytes } in &made.files {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("a writable folder");
+        std::fs::write(path, bytes).expect("a writable folder");
+    }
     let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));
     assert!(exhibit.warnings.is_empty(), "{}", exhibit.warning_report().to_text());
     Arc::new(exhibit)

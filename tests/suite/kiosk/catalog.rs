@@ -1,9 +1,13 @@
 //! Catalog of exhibits: folders that are saved, dropped and taken away.
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
 use soffio_kiosk::venue::catalog::{Catalog, CatalogEvent, CatalogLoader, ExhibitSource, folders, id};
+
+use crate::sound::own_timbres::{self, WHIRR};
+use crate::sound::{RATE, spectrum};
 
 #[test]
 fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
@@ -30,6 +34,33 @@ fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
         panic!("the change is noticed, nothing shown")
     };
     assert!(id == "steel-fish" && report.contains("no-such-table"), "{report}");
+}
+
+#[test]
+fn a_saved_timbre_is_loaded_again_and_a_broken_one_leaves_the_exhibit_on_show() {
+    /// Far longer than the debounce time and a load: only a watcher that misses the change takes so long.
+    const LONG: Duration = Duration::from_secs(20);
+    // Folders whose names begin with a dot are not offered, and temporary ones do.
+    let folder = own_timbres::folder("whirr", "", &[("whirr.toml", WHIRR)]);
+    let path = folder.path().join("wheel");
+    std::fs::create_dir_all(path.join("timbres")).expect("writable");
+    for file in ["model.glb", "exhibit.toml", "timbres/whirr.toml"] {
+        std::fs::copy(folder.path().join(file), path.join(file)).expect("a copy");
+    }
+    let shelf = CatalogLoader::new(&ExhibitSource::One(path.clone()), &path, true);
+    let first = shelf.wait(LONG);
+    assert!(matches!(first, Some(CatalogEvent::Listed(_))), "it is listed first");
+    folder.write("wheel/timbres/whirr.toml", WHIRR.replace("scale = 40", "scale = 80").as_bytes());
+    let Some(CatalogEvent::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
+    let power = spectrum(&own_timbres::heard(Arc::unwrap_or_clone(loaded), 2)[RATE as usize..], 4800);
+    assert!(power[80] > 1e3 * power[90], "an octave higher");
+    let listed = shelf.wait(LONG);
+    assert!(matches!(listed, Some(CatalogEvent::Listed(_))), "it is listed again");
+    folder.write("wheel/timbres/whirr.toml", WHIRR.replace("type = \"fm\"", "type = \"fmm\"").as_bytes());
+    let Some(CatalogEvent::Rejected(_, report)) = shelf.wait(LONG) else {
+        panic!("the change is noticed, nothing shown")
+    };
+    assert!(report.contains("did you mean \"fm\"") && report.contains("whirr.toml"), "{report}");
 }
 
 #[test]

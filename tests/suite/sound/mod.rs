@@ -2,7 +2,7 @@
 
 mod contact;
 mod every_timbre;
-mod own_timbres;
+pub mod own_timbres;
 mod scratching;
 mod visit;
 
@@ -10,7 +10,7 @@ use soffio_fourier::real_forward;
 use soffio_math::PI;
 use soffio_sound::{InstrumentSpec, SoundBody, SoundMaterial, Synth};
 
-const RATE: u32 = 48_000;
+pub const RATE: u32 = 48_000;
 
 fn steel() -> SoundMaterial {
     SoundMaterial { youngs_modulus: 2e11, poisson: 0.3, density: 7850.0, loss_factor: 6e-4 }
@@ -44,7 +44,7 @@ fn rms(samples: &[f32]) -> f64 {
 }
 
 /// Mean power spectrum of a long signal by Welch's method: `n` points a window of Hann, half overlapping.
-fn spectrum(signal: &[f64], n: usize) -> Vec<f64> {
+pub fn spectrum(signal: &[f64], n: usize) -> Vec<f64> {
     let transform = real_forward(n);
     let window: Vec<f64> =
         (0..n).map(|i| 0.5 - 0.5 * soffio_math::cos(2.0 * soffio_math::PI * i as f64 / n as f64)).collect();

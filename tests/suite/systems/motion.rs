@@ -15,6 +15,7 @@ const BLOW_BALLS: &str = r#"{"t": 0, "aim": [0.5, 0.55]}
 {"t": 1.0, "blow": {"strength": 0.6, "hold": 1.2, "release": 0.3}}"#;
 
 /// Joint error that the collection allows position-based motion, m (`procedural/collection.rs`).
+#[cfg(feature = "kiosk")]
 const BY_POSITIONS: f64 = 1e-3;
 
 pub const ROWS: &[Row] = &[

@@ -56,6 +56,7 @@ pub struct Run {
     /// Largest distance between the two points of a joint after each step, m.
     pub joint_error: f64,
     /// Changes between dynamics and position-based motion that the kiosk chose.
+    #[cfg(feature = "kiosk")]
     pub switches: f64,
     /// Everything that happened.
     pub events: Vec<Event>,
@@ -84,6 +85,7 @@ impl Run {
             visited,
             states: vec![simulation.bodies().to_vec()],
             joint_error: 0.0,
+            #[cfg(feature = "kiosk")]
             switches: 0.0,
             events: Vec::new(),
             sounds: Vec::new(),
