@@ -191,8 +191,9 @@ fn every_piece_hangs_in_balance_below_its_hook() {
 fn the_work_has_the_figures_of_the_maquette() {
     let mobile = mobile();
     let s = mobile.statics();
-    // Reference: the 1:6 design sheet. Eyes, stems and the cup are extra, hence the stated margins.
-    assert_close("moving mass", s.total_mass, 60.7e-3, 0.03 * 60.7e-3);
+    // Reference: the 1:6 design sheet. Eyes, stems and the cup are extra, hence the stated margins. B2 is 12 mm shorter than the
+    // sheet's, so that its discs meet, and the counterweight heavier for it.
+    assert_close("moving mass", s.total_mass, 60.7e-3, 0.04 * 60.7e-3);
     assert!(s.worst_offset <= PLUMB, "{} m", s.worst_offset);
     let lead = mobile.pieces[0].0.parts.iter().find(|part| part.name == "Counterweight").expect("a lead weight");
     assert_close("lead", lead.solid.mass(lead.density).mass, 8.83e-3, 0.15 * 8.83e-3);
