@@ -112,8 +112,8 @@ impl Preset {
         self.node.values().any(|node| node.is_played_by(player))
     }
 
-    /// How it is played: by a slide if any input of a slide is named, else by wind, else by motion, unless an envelope or the
-    /// strength of a hit says that each hit begins it anew. Partials that nothing drives wait for hits in any case.
+    /// How it is played: by a slide if any input of a slide is named, else by wind, else by motion. With an envelope, or with the
+    /// strength of a hit as an input, each hit plays it instead of motion. Undriven partials ring at each hit in any case.
     pub(crate) fn player(&self) -> Player {
         let waits = |node: &Node| matches!(node, Node::Modal(modal) if modal.r#in.is_none());
         let begins = |node: &Node| matches!(node, Node::Env(_)) || node.is_played_by(Player::Hit);
