@@ -155,8 +155,9 @@ impl Motion {
             self.wrenches.fill([0.0; 6]);
             if self.mode != MotionMode::Dynamic {
                 let (dynamics, impacts) = (&mut self.dynamics, &mut self.impacts);
-                return dynamics
-                    .position_step(DT, &self.wrenches, impacts, |step| assembly.advance_positions(DT, step.bodies));
+                return dynamics.position_step(DT, &self.wrenches, true, impacts, |step| {
+                    assembly.advance_positions(DT, step.bodies)
+                });
             }
             assembly.apply_forces(&self.dynamics.bodies, &mut self.wrenches);
             return self.dynamics.step(DT, &self.wrenches, &mut self.impacts);

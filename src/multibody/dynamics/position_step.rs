@@ -1,10 +1,11 @@
 //! Position-based steps: steps that a position-based mover integrates instead of constrained dynamics.
 //!
 //! Activation windows, triggers, springs, full turns and recovery work as in a step of constrained dynamics, so either kind of step
-//! may follow the other.
+//! may follow the other. So does sleep, of all bodies together: while one is awake, a mover moves them all.
 
 use super::contacts::{Contacts, Impact};
 use super::kinematic::KinematicBody;
+use super::sleep::Extent;
 use super::step::Dynamics;
 use crate::articulation::System;
 use soffio_geometry::bodies::RigidBody;
@@ -37,22 +38,32 @@ pub struct PositionStep<'a> {
 
 impl Dynamics {
     /// Advances by `dt` seconds by a position-based mover, under external wrenches (N and N m about each centre of mass). Appends the
-    /// impacts to `impacts`. Returns the first body with invalid numbers, before or after, because of which all bodies were put back.
+    /// impacts to `impacts`. Where all bodies sleep, the mover does not run, unless `led`: then it moves bodies by more than forces,
+    /// as a hand does. Returns the first body with invalid numbers, before or after, because of which all bodies were put back.
     pub fn position_step(
         &mut self,
         dt: f64,
         external: &[Vec6],
+        led: bool,
         impacts: &mut Vec<Impact>,
         mover: impl FnOnce(PositionStep),
     ) -> Option<usize> {
-        self.wake_all();
         let invalid = self.recover();
+        self.equations.wrenches.given.copy_from_slice(external);
+        self.wake_pushed_bodies();
         self.begin_step(dt);
-        self.substeps = 1;
         let middle = self.time + 0.5 * dt;
         let equations = &mut self.equations;
         let activation_changed = equations.system.activity.update_activations(middle)
             | equations.springs.activity.update_activations(middle);
+        if self.sleep.all() && !led && !activation_changed {
+            return invalid.or(self.end_step(dt, impacts.len(), impacts));
+        }
+        if self.sleep.any() {
+            self.wake_all();
+        }
+        self.substeps = 1;
+        let equations = &mut self.equations;
         equations.wrenches.total.copy_from_slice(external);
         equations.springs.add_forces(&self.bodies, self.time, &mut equations.wrenches.total);
         let already = impacts.len();
@@ -77,6 +88,7 @@ impl Dynamics {
         equations.springs.break_overloaded(&self.bodies, self.time + dt);
         let lost = self.end_step(dt, already, impacts);
         self.restart();
+        self.fall_asleep(dt, Extent::All);
         invalid.or(lost)
     }
 }

@@ -14,7 +14,9 @@
 //! - the external wrench on one of its bodies changes by SLIGHT: wind, breath, a pointer;
 //! - an awake body hits it or comes to rest on it;
 //! - the activation of any constraint changes, or one breaks;
-//! - bodies are set from outside, or a position-based step moves them.
+//! - bodies are set from outside.
+//!
+//! In position-based motion all islands fall asleep together ([`Extent::All`]) and wake together.
 //!
 //! No island falls asleep while a row is being stabilised, is partly active or waits for its window, or while a clutch slips.
 //! Bodies under a function of time never sleep, nor those connected to a kinematic body or resting on one. Waking spreads through
@@ -55,6 +57,15 @@ pub(super) struct Sleep {
     wrench: Vec<Vec6>,
     asleep: Vec<bool>,
     count: usize,
+}
+
+/// Which bodies fall asleep together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    /// Those of an island.
+    Island,
+    /// All.
+    All,
 }
 
 /// What connects the bodies of an articulation.
@@ -124,6 +135,11 @@ impl Sleep {
         self.count > 0
     }
 
+    /// Whether all bodies sleep. A kinematic one never does.
+    pub fn all(&self) -> bool {
+        self.count == self.asleep.len()
+    }
+
     /// Whether each body sleeps.
     pub fn asleep(&self) -> &[bool] {
         &self.asleep
@@ -162,8 +178,9 @@ impl Sleep {
         if self.any() { (0..bodies.len()).find(is_disturbed) } else { None }
     }
 
-    /// Puts quiet islands to sleep. `resting` are the two bodies of every resting contact. Returns whether any fell asleep.
-    pub fn fall_asleep(&mut self, resting: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
+    /// Puts quiet islands to sleep, or all if all are quiet. `resting` are the two bodies of every resting contact. Returns whether
+    /// any fell asleep.
+    pub fn fall_asleep(&mut self, extent: Extent, resting: impl Iterator<Item = [Option<usize>; 2]>) -> bool {
         let n = self.asleep.len();
         let is_ready =
             |sleep: &Self, body: usize| sleep.quiet[body] >= QUIET && !sleep.asleep[body] && !sleep.is_kinematic[body];
@@ -177,6 +194,10 @@ impl Sleep {
             {
                 self.stays_awake[self.islands.first(body)] = true;
             }
+        }
+        let first = |body: usize| self.islands.first(body);
+        if extent == Extent::All && (0..n).any(|body| self.is_kinematic[body] || self.stays_awake[first(body)]) {
+            return false;
         }
         let before = self.count;
         for body in 0..n {

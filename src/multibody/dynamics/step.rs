@@ -10,7 +10,7 @@ use super::integrate::{ErrorControl, Integration, Moving, Substep};
 use super::joint_loads::JointLoads;
 use super::recovery::Recovery;
 use super::settings::Settings;
-use super::sleep::Sleep;
+use super::sleep::{Extent, Sleep};
 use super::work_budget::WorkBudget;
 use crate::articulation::LoadKind;
 use soffio_geometry::bodies::RigidBody;
@@ -148,7 +148,7 @@ impl Dynamics {
             self.equations.apply_pivot_friction(&mut self.bodies, self.loads.all(), dt);
         }
         let lost = self.end_step(dt, already, impacts);
-        self.fall_asleep(dt);
+        self.fall_asleep(dt, Extent::Island);
         invalid.or(lost)
     }
 

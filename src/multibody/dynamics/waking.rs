@@ -2,6 +2,7 @@
 
 use super::contacts::EarliestImpact;
 use super::equations::Evaluated;
+use super::sleep::Extent;
 use super::step::Dynamics;
 use soffio_math::DVec3;
 
@@ -11,12 +12,13 @@ impl Dynamics {
         self.sleep.asleep()[body]
     }
 
-    /// Puts islands to sleep that have been at rest long enough, after a step of `dt` seconds. Their velocities become zero.
-    pub(super) fn fall_asleep(&mut self, dt: f64) {
+    /// Puts islands, or all bodies together, to sleep that have been at rest long enough, after a step of `dt` seconds. Their
+    /// velocities become zero.
+    pub(super) fn fall_asleep(&mut self, dt: f64, extent: Extent) {
         let Self { sleep, contacts, equations, bodies, .. } = self;
         sleep.record(dt, bodies, &equations.wrenches.given);
         let changing = equations.system.is_stabilising() || contacts.clutches().slipping().next().is_some();
-        if changing || !sleep.fall_asleep(contacts.resting_bodies()) {
+        if changing || !sleep.fall_asleep(extent, contacts.resting_bodies()) {
             return;
         }
         for (index, body) in bodies.iter_mut().enumerate().filter(|(index, _)| sleep.asleep()[*index]) {
