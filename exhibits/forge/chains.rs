@@ -3,9 +3,9 @@
 //! The rotation of a link depends on its lever arm and its inertia: a rod of length l about its centre has I/m = l²/12,
 //! a plate of width w has I/m = (l² + w²)/12. The heavy links are broad, so their I/m is greater too.
 
-use soffio_math::{DQuat, DVec3, PI};
+use soffio_math::{DQuat, DVec3, PI, Pose, sincos};
 
-use soffio_authoring::glb::Scene;
+use soffio_authoring::glb::{Key, Scene};
 use soffio_authoring::hanging::{SheetStock, disc};
 use soffio_authoring::mobile::EYE_STEPS;
 use soffio_authoring::outline::ring;
@@ -14,12 +14,18 @@ use soffio_authoring::stock_parts::{Finishes, MM, STEEL, WOOD, finishes, part, r
 
 /// Length of a link from eye to eye, m.
 const PITCH: f64 = 44.0 * MM;
+/// Name of the carriage.
+const CARRIAGE: &str = "Carriage";
 /// Height of the hooks above the floor, m.
 const HOOK: f64 = 500.0 * MM;
 /// Distance of the hooks from the carriage's centre, m.
 const ASIDE: f64 = 110.0 * MM;
 /// Start position of the carriage along x, m.
 const START: f64 = -130.0 * MM;
+/// Time in which the carriage goes to and fro, s.
+const PERIOD: f64 = 4.0;
+/// Keys of a period in the animation: its cubic splines follow the sine to 0.2 mm.
+const KEYS: usize = 8;
 /// Width of a heavy link, m.
 const BROAD: f64 = 46.0 * MM;
 /// Thickness of a heavy link, m.
@@ -105,7 +111,7 @@ fn carriage(chains: &[Chain], finishes: &Finishes) -> Piece {
     let mut parts = vec![part("CarriageBar", bar, 17.0 * MM * DVec3::Y, along, STEEL, finishes.red)];
     parts.extend(chains.iter().map(|chain| peg(chain.peg, chain.aside)));
     let markers = chains.iter().map(|chain| (chain.hook, chain.aside * DVec3::X)).collect();
-    Piece { name: "Carriage", parts, wires: Vec::new(), markers }
+    Piece { name: CARRIAGE, parts, wires: Vec::new(), markers }
 }
 
 /// The frame with the rail of the carriage.
@@ -136,21 +142,37 @@ fn frame(finishes: &Finishes) -> Piece {
 
 /// Both chains side by side.
 pub fn glb() -> Vec<u8> {
-    model("A light and a heavy chain", |finishes| vec![light_chain(-ASIDE, finishes), heavy_chain(ASIDE, finishes)])
+    let (scene, pieces) = drawn(|finishes| vec![light_chain(-ASIDE, finishes), heavy_chain(ASIDE, finishes)]);
+    model(scene, "A light and a heavy chain", &pieces)
 }
 
-/// The light chain alone.
+/// The light chain alone. The model's own animation moves its carriage, as one from a modelling program would.
 pub fn light_glb() -> Vec<u8> {
-    model("A light chain", |finishes| vec![light_chain(0.0, finishes)])
+    let (mut scene, pieces) = drawn(|finishes| vec![light_chain(0.0, finishes)]);
+    let rate = 2.0 * PI / PERIOD;
+    let key = |k: usize| {
+        let time = PERIOD * k as f64 / KEYS as f64;
+        let (s, c) = sincos(rate * time);
+        Key { time, place: DVec3::new(START * c, HOOK, 0.0), velocity: DVec3::new(-START * rate * s, 0.0, 0.0) }
+    };
+    let keys: Vec<Key> = (0..=KEYS).map(key).collect();
+    for (piece, position) in &pieces {
+        let node = piece.write(&mut scene, Pose { rotation: DQuat::IDENTITY, position: *position });
+        if piece.name == CARRIAGE {
+            scene.animate("To and fro", node, &keys);
+        }
+    }
+    model(scene, "A light chain", &[])
 }
 
 /// The heavy chain alone.
 pub fn heavy_glb() -> Vec<u8> {
-    model("A heavy chain", |finishes| vec![heavy_chain(0.0, finishes)])
+    let (scene, pieces) = drawn(|finishes| vec![heavy_chain(0.0, finishes)]);
+    model(scene, "A heavy chain", &pieces)
 }
 
-/// A model of some chains: each link hangs at its origin, and its end has a marker.
-fn model(title: &str, chains: fn(&Finishes) -> Vec<Chain>) -> Vec<u8> {
+/// Some chains on their carriage: each link hangs at its origin, and its end has a marker.
+fn drawn(chains: fn(&Finishes) -> Vec<Chain>) -> (Scene, Vec<(Piece, DVec3)>) {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
     let middle = DVec3::new(START, HOOK, 0.0);
@@ -164,7 +186,12 @@ fn model(title: &str, chains: fn(&Finishes) -> Vec<Chain>) -> Vec<u8> {
         }
         pieces.push((disc, hook - PITCH * names[0].len() as f64 * DVec3::Y));
     }
+    (scene, pieces)
+}
+
+/// The file of a scene, with pieces that are not in it yet, and its camera.
+fn model(scene: Scene, title: &str, pieces: &[(Piece, DVec3)]) -> Vec<u8> {
     let target = DVec3::new(0.0, 0.275, 0.0);
     let away = DVec3::new(0.12 * PI, 0.16, 1.0).normalize();
-    write(scene, title, &pieces, target + 1.45 * away, target)
+    write(scene, title, pieces, target + 1.45 * away, target)
 }

@@ -55,9 +55,21 @@ pub struct Picture {
     pub size: [f64; 2],
 }
 
+/// A key of a node's way.
+#[derive(Clone, Copy, Debug)]
+pub struct Key {
+    /// Time, s.
+    pub time: f64,
+    /// Place of the node in its parent, m.
+    pub place: DVec3,
+    /// Velocity of the node, m/s.
+    pub velocity: DVec3,
+}
+
 /// A glTF scene under construction.
 #[derive(Debug, Default)]
 pub struct Scene {
+    animations: Vec<Value>,
     images: Vec<Value>,
     /// Sizes of the pictures of finishes.
     pictures: BTreeMap<usize, [f64; 2]>,
@@ -143,6 +155,25 @@ impl Scene {
         self.materials[finish]["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": self.images.len() - 1 });
         self.pictures.insert(finish, picture.size);
         Ok(())
+    }
+
+    /// Moves a node along a smooth way through its keys (cubic splines of glTF), as an animation of this title.
+    pub fn animate(&mut self, title: &str, node: usize, keys: &[Key]) {
+        let times: Vec<f32> = keys.iter().map(|key| key.time as f32).collect();
+        let ways: Vec<[f32; 3]> = keys
+            .iter()
+            .flat_map(|key| [key.velocity, key.place, key.velocity])
+            .map(|value| value.as_vec3().to_array())
+            .collect();
+        let input = self.accessor(bytemuck::cast_slice(&times), FLOAT, "SCALAR", times.len(), 0);
+        self.accessors[input]["min"] = json!([times.first()]);
+        self.accessors[input]["max"] = json!([times.last()]);
+        let output = self.accessor(bytemuck::cast_slice(&ways), FLOAT, "VEC3", ways.len(), 0);
+        self.animations.push(json!({
+            "name": title,
+            "channels": [{ "sampler": 0, "target": { "node": node, "path": "translation" } }],
+            "samplers": [{ "input": input, "output": output, "interpolation": "CUBICSPLINE" }],
+        }));
     }
 
     /// Draws both sides of a finish: of cloth, which has no thickness in the model.
@@ -265,6 +296,9 @@ impl Scene {
             let textures: Vec<Value> = (0..self.images.len()).map(|source| json!({ "source": source })).collect();
             document["textures"] = json!(textures);
             document["images"] = json!(self.images);
+        }
+        if !self.animations.is_empty() {
+            document["animations"] = json!(self.animations);
         }
         if !self.skins.is_empty() {
             document["skins"] = json!(self.skins);

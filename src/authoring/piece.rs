@@ -74,8 +74,8 @@ impl Piece {
         found.unwrap_or_else(|| panic!("{} has no marker {name}", self.name)).1
     }
 
-    /// Adds the piece to the scene with its frame at `pose`.
-    pub fn write(&self, scene: &mut Scene, pose: Pose) {
+    /// Adds the piece to the scene with its frame at `pose`; returns the index of its node.
+    pub fn write(&self, scene: &mut Scene, pose: Pose) -> usize {
         let node = scene.node(self.name, None, pose.position, pose.rotation);
         for part in &self.parts {
             let own = if part.name == self.name {
@@ -93,6 +93,7 @@ impl Piece {
                 scene.marker(&format!("{}.{i:02}", bend.name), Some(node), *point);
             }
         }
+        node
     }
 }
 

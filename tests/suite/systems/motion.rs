@@ -35,6 +35,21 @@ pub const ROWS: &[Row] = &[
         },
     },
     Row {
+        system: "body that follows an animation of the model",
+        exhibit: "chain-light",
+        visit: Visit::new(6.0, ""),
+        without: &[Cut::Key("body", "Carriage", "animation"), Cut::Key("body", "Carriage", "motion")],
+        // A sine of 13 cm and 4 s in cubic pieces of T = 0.5 s: off by at most A ω⁴ T⁴/384.
+        shows: |run| {
+            const PIECES: f64 = 2e-4;
+            let off = |now: Moment| (now.body("Carriage").pose().position.x + 0.13 * cos(0.5 * PI * now.t())).abs();
+            vec![
+                at_most(PIECES, "off the sine, m", greatest(run.moments().map(off))),
+                at_most(1e-9, "joint error, m", greatest(run.moments().map(|now| now.gap("light-1")))),
+            ]
+        },
+    },
+    Row {
         system: "taken by the hand",
         exhibit: "marionette",
         visit: Visit::new(2.0, DRAG_ARM),
