@@ -34,6 +34,14 @@ struct Plane {
     spare2: f32,
 }
 
+// A rectangle of another reflectance on a face of the gallery, in the face's coordinates −1 … 1.
+struct Panel {
+    center: vec2f,
+    half: vec2f,
+    albedo: vec3f,
+    face: f32,
+}
+
 struct Globals {
     clip_from_world: mat4x4f,
     shadow_from_world: mat4x4f,
@@ -70,6 +78,7 @@ struct Globals {
     irradiance: array<vec4f, 9>,
     lamps: array<Lamp, 2>,
     planes: array<Plane, 2>,
+    panels: array<Panel, 9>,
     punctual: array<Punctual, 8>,
 }
 
@@ -154,12 +163,30 @@ fn agx(c: vec3f) -> vec3f {
     return pow(max(outset * y, vec3f(0.0)), vec3f(2.2));
 }
 
-// Uniform noise in −½ … ½ from the pixel alone: the same in every frame, so it does not shimmer (PCG, Jarzynski 2020).
+// 32 random bits from a number (PCG, Jarzynski 2020).
+fn hashed(seed: u32) -> u32 {
+    let h = ((seed >> ((seed >> 28u) + 4u)) ^ seed) * 277803737u;
+    return (h >> 22u) ^ h;
+}
+
+// From the pixel alone: the same in every frame, so it does not shimmer.
+fn pixel_seed(pixel: vec2f) -> u32 {
+    return u32(pixel.x) * 1664525u + u32(pixel.y) * 1013904223u + 12345u;
+}
+
+// Uniform noise in −½ … ½.
 fn pixel_noise(pixel: vec2f) -> f32 {
-    var h = u32(pixel.x) * 1664525u + u32(pixel.y) * 1013904223u + 12345u;
-    h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
-    h = (h >> 22u) ^ h;
-    return f32(h >> 8u) / 16777216.0 - 0.5;
+    return f32(hashed(pixel_seed(pixel)) >> 8u) / 16777216.0 - 0.5;
+}
+
+// Noise in −1 … 1 of triangular density, one value a channel: the difference of two uniform ones. A dither of it leaves
+// neither bands nor noise that depends on the colour (Lipshitz et al. 1992).
+fn triangular_noise(pixel: vec2f) -> vec3f {
+    let a = hashed(pixel_seed(pixel));
+    let b = hashed(a + 2654435769u);
+    let first = vec3f(vec3u(a, a >> 11u, a >> 22u) & vec3u(1023u));
+    let second = vec3f(vec3u(b, b >> 11u, b >> 22u) & vec3u(1023u));
+    return (first - second) / 1024.0;
 }
 
 // Tone curve: linear radiance to a linear display value, which the target encodes as sRGB.
@@ -174,7 +201,7 @@ fn tone_mapped(radiance: vec3f, pixel: vec2f) -> vec3f {
     }
     // One step of an 8-bit sRGB code is about 2.1 √c / 255 in linear light, 1 / (12.92 · 255) near black.
     let step = max(2.1 * sqrt(max(out, vec3f(0.0))), vec3f(1.0 / 12.92)) / 255.0;
-    return clamp(out + globals.dither * pixel_noise(pixel) * step, vec3f(0.0), vec3f(1.0));
+    return clamp(out + globals.dither * triangular_noise(pixel) * step, vec3f(0.0), vec3f(1.0));
 }
 
 // Irradiance at `p` from lamp `i` per unit cosine, without its shadow.

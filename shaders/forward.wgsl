@@ -69,7 +69,7 @@ struct Vertex {
     @location(3) uv: vec4f,      // two sets
     @location(4) color: vec4f,
     @location(5) tag: u32,
-    @location(6) bounce: vec3f,
+    @location(6) bounce: vec4f,  // irradiance from other surfaces, and the visible fraction of the fill lamp
     @location(7) outline: u32,
 }
 
@@ -81,7 +81,7 @@ struct Varying {
     @location(3) uv: vec4f,
     @location(4) color: vec4f,
     @location(5) visibility: f32,
-    @location(6) bounce: vec3f,
+    @location(6) bounce: vec4f,
     @location(7) @interpolate(flat) outline: u32,
 }
 
@@ -118,6 +118,7 @@ struct Ribbon {
     @location(5) color: vec4f,
     @location(6) tag: u32,
     @location(7) outline: u32,   // the plate, and the edge in its silhouette
+    @location(8) bounce: vec4f,
 }
 
 @vertex
@@ -145,7 +146,7 @@ fn ribbon_vertex(@builtin(vertex_index) index: u32, r: Ribbon) -> Varying {
     out.uv = select(r.uv_a, r.uv_b, c.x > 0.5);
     out.color = r.color;
     out.visibility = visibility_of_tag(r.tag);
-    out.bounce = vec3f(0.0);
+    out.bounce = r.bounce;
     out.outline = r.outline;
     return out;
 }
@@ -180,7 +181,8 @@ fn bent(v: Varying, n: vec3f, bump: vec3f, scale: f32, dp_x: vec3f, dp_y: vec3f,
     if v.tangent.w == 0.0 {
         let px = cross(n, dp_x);
         let py = cross(dp_y, n);
-        t = py * at_x.x + px * at_y.x;
+        // Derivatives along y are taken downwards, which turns both signs; and the map's second axis points up, against v.
+        t = -(py * at_x.x + px * at_y.x);
         b = py * at_x.y + px * at_y.y;
         let unit = inverseSqrt(max(max(dot(t, t), dot(b, b)), 1e-30));
         t *= unit;
@@ -232,7 +234,8 @@ fn seen(v: Varying) -> Seen {
     s.roughness = sqrt(sqrt(min(rough * rough * rough * rough + turn, 1.0)));
     let creases = 1.0 + material.occlusion * (ao - 1.0);
     s.occlusion = creases * v.visibility;
-    s.bounce = creases * v.bounce;
+    s.bounce = creases * v.bounce.rgb;
+    s.fill = v.bounce.w;
     s.f0 = material.f0;
     s.f90 = material.f90;
     s.transmission = material.transmission;

@@ -151,7 +151,14 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     }
     let map = textureSampleLevel(lightmap, smooth_sampler, uv * 0.5 + 0.5, i32(v.face), 0.0);
     // The map's fourth channel is the radiance of a luminous field.
-    let albedo = select(globals.wall_albedo, globals.floor_albedo, v.face == FLOOR);
+    var albedo = select(globals.wall_albedo, globals.floor_albedo, v.face == FLOOR);
+    // No panel hangs behind the exhibit or on the floor.
+    let panels = select(0u, 9u, v.face > FLOOR);
+    for (var i = 0u; i < panels; i++) {
+        let panel = globals.panels[i];
+        let on = u32(panel.face) == v.face && all(abs(uv - panel.center) < panel.half);
+        albedo = select(albedo, panel.albedo, on);
+    }
     let hidden = blocked(v.position, v.face);
     let open = open_sky(v.position, v.face);
     var irradiance = map.rgb * open;

@@ -29,6 +29,7 @@ struct Surface {
     roughness: f32,    // perceptual
     occlusion: f32,
     bounce: vec3f,     // irradiance from other surfaces
+    fill: f32,         // visible fraction of the fill lamp
     f0: vec3f,         // of what is not metal
     f90: f32,
     transmission: f32, // transmitted fraction of the refracted light
@@ -43,6 +44,7 @@ struct Surface {
 fn plain_surface() -> Surface {
     var s: Surface;
     s.occlusion = 1.0;
+    s.fill = 1.0;
     s.f0 = vec3f(0.04);
     s.f90 = 1.0;
     return s;
@@ -200,7 +202,9 @@ fn shadow(p: vec3f, facing: vec3f, towards: vec3f) -> f32 {
         return 1.0;
     }
     let blocker = depth / blockers;
-    let width = clamp(spread * (at.w - blocker) / blocker, 1.2 / size.x, search);
+    // Narrower than a few texels, the edge would show the map's steps.
+    let narrowest = 2.5 / size.x;
+    let width = clamp(spread * (at.w - blocker) / blocker, narrowest, max(search, narrowest));
     // In the penumbra each tap is one step of shade; few pixels are in one.
     let steps = 3.0 * taps;
     var lit = 0.0;
@@ -318,7 +322,7 @@ fn shade(s: Surface, lit: f32) -> vec3f {
     sum += globals.env_intensity * s.sheen * (r.sheen_albedo * s.occlusion / PI) * sh_irradiance(s.normal);
     for (var i = 0u; i < globals.lamp_count; i++) {
         let l = normalize(globals.lamps[i].position - s.position);
-        sum += lamp_beam(i, s.position) * sheen(s, r, l) * select(1.0, lit, i == 0u);
+        sum += lamp_beam(i, s.position) * sheen(s, r, l) * select(s.fill, lit, i == 0u);
     }
     var coat = s;
     coat.f0 = vec3f(0.04);
@@ -337,7 +341,7 @@ fn shade_layer(s: Surface, lit: f32) -> vec3f {
     let alpha = max(s.roughness * s.roughness, 0.002);
     var sum = image_light(s, r);
     for (var i = 0u; i < globals.lamp_count; i++) {
-        sum += lamp_light(s, r, alpha, i) * select(1.0, lit, i == 0u);
+        sum += lamp_light(s, r, alpha, i) * select(s.fill, lit, i == 0u);
     }
     if AREA_LIGHT {
         sum += area_light(s, r, alpha) * lit;

@@ -1,6 +1,6 @@
-//! Baked indirect light of static scenes: radiosity by ray casting from vertices.
+//! Baked indirect light: radiosity by ray casting from vertices, with all bodies where they start.
 //!
-//! In a static scene a ray from a vertex always ends at the same triangle. With N cosine-weighted rays of a vertex, ρ
+//! While nothing moves a ray from a vertex always ends at the same triangle. With N cosine-weighted rays of a vertex, ρ
 //! the reflectance of the triangle that a ray hits, E the irradiance there, and D that of the lights themselves:
 //!
 //! ```text
@@ -11,6 +11,10 @@
 //!
 //! The rays are the same at every vertex, in its tangent frame, so there is no noise. Triangles are refined first,
 //! since baked light is interpolated linearly between vertices.
+//!
+//! The light moves with its vertices. That is exact for the parts that stand, and for wheels and tubes that move within a
+//! case or a row nearly so: what surrounds them stays where it is. A plate that swings far away keeps the little that its
+//! neighbours sent it at the start.
 
 use std::f32::consts::PI;
 
@@ -18,6 +22,7 @@ use glam::{Quat, Vec3};
 
 use super::AreaLight;
 use super::environment::Environment;
+use super::gallery::Lamp;
 use super::occlusion::{RayCaster, cosine_directions, groups, in_parallel, start_geometry};
 use super::radiosity::polygon_factor;
 use super::scene::Scene;
@@ -34,11 +39,15 @@ const MIN_RAYS: usize = 12;
 /// Most rays of each vertex: more make no visible difference.
 const MAX_RAYS: usize = 320;
 /// Most rays of all vertices together: bounds the time of a load.
-const RAY_BUDGET: usize = 6_000_000;
+const RAY_BUDGET: usize = 3_000_000;
 /// Number of reflections. At a reflectance of 0.3 they leave out 0.3⁵, a quarter of a per cent (see the test below).
 const REFLECTIONS: u32 = 5;
 /// Points along each side of an area light that a vertex is tested against: 16 steps of penumbra, chosen by eye.
 const LIGHT_GRID: u32 = 4;
+/// Points of a lamp's disc that a vertex is tested against: as many steps of penumbra, which interpolation smooths.
+const LAMP_POINTS: u32 = 8;
+/// Angle between successive points of Vogel's spiral, rad: π (3 − √5).
+const GOLDEN_ANGLE: f32 = 2.399_963_2;
 /// Mip level of the environment cube that rays read: as coarse as the rays are sparse.
 const RAY_MIP_LEVEL: usize = 2;
 /// Offset of ray origins towards the centre of the vertex's triangles, as a fraction. In the exact edge between a wall
@@ -55,9 +64,11 @@ pub(super) struct BakedLight<'a> {
     pub env_intensity: f32,
     /// Area light, if the scene has one.
     pub area: Option<AreaLight>,
+    /// Lamps of the gallery, the fill lamp last; none in a scenario.
+    pub lamps: &'a [Lamp],
 }
 
-/// Bakes the visibility and the reflected light of each vertex of a static scene.
+/// Bakes the visibility, the reflected light and the fill lamp's visible fraction of each vertex.
 pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: &BakedLight) {
     scene.refine(MAX_EDGE * radius, MAX_VERTICES);
     let (positions, normals) = start_geometry(scene, exhibit);
@@ -90,8 +101,15 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
         }
         let visibility = if all > 0.0 { open / all } else { 1.0 };
         let around = light.env_intensity * visibility * light.environment.irradiance_at(normal);
-        let direct = light.area.as_ref().map_or(Vec3::ZERO, |area| from_area(&caster, place, normal, area));
-        (visibility, direct + around, met)
+        let mut direct = light.area.as_ref().map_or(Vec3::ZERO, |area| from_area(&caster, place, normal, area));
+        let mut fill = 1.0;
+        for lamp in light.lamps {
+            let beam = lamp.irradiance(place, normal);
+            // Behind the surface no ray decides: a body that turns has its other side there.
+            fill = if beam == Vec3::ZERO { 1.0 } else { lamp_visibility(&caster, place, lamp) };
+            direct += beam * fill;
+        }
+        (visibility, direct + around, met, fill)
     });
     let reflectance = reflectances(scene, &exhibit.model);
     let mut sent = vec![Vec3::ZERO; order.len()];
@@ -105,13 +123,14 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
                 *rho * (falls(t[0]) + falls(t[1]) + falls(t[2])) / 3.0 + PI * *glow
             })
             .collect();
-        sent = in_parallel(&gathered, |(.., met)| {
+        sent = in_parallel(&gathered, |(_, _, met, _)| {
             met.iter().map(|&triangle| of_triangle[triangle as usize]).sum::<Vec3>() / rays as f32
         });
     }
     for (i, vertex) in scene.vertices.iter_mut().enumerate() {
         vertex.set_visibility(gathered[group_of[i]].0);
         vertex.bounce = sent[group_of[i]];
+        vertex.fill = gathered[group_of[i]].3;
     }
 }
 
@@ -126,6 +145,18 @@ fn inward(scene: &Scene, positions: &[Vec3]) -> Vec<Vec3> {
         }
     }
     sums.into_iter().map(|(sum, count)| sum / f32::max(count, 1.0)).collect()
+}
+
+/// Visible fraction of a lamp's disc.
+fn lamp_visibility(caster: &RayCaster, place: Vec3, lamp: &Lamp) -> f32 {
+    let (x, y) = lamp.axis.any_orthonormal_pair();
+    let seen = (0..LAMP_POINTS).filter(|&i| {
+        // Vogel's spiral, as in `common.wgsl`.
+        let (sine, cosine) = (i as f32 * GOLDEN_ANGLE).sin_cos();
+        let r = lamp.radius * ((i as f32 + 0.5) / LAMP_POINTS as f32).sqrt();
+        !caster.is_occluded(place, lamp.position + (x * cosine + y * sine) * r)
+    });
+    seen.count() as f32 / LAMP_POINTS as f32
 }
 
 /// Irradiance from an area light, as far as it is visible.
@@ -211,7 +242,12 @@ pub(super) mod tests {
             Appearance { base_color: [0.3, 0.3, 0.3, 1.0], emissive: [0.5; 3], metallic: 0.0, ..Default::default() };
         let (exhibit, mut scene) = of_primitive(hollow_cube(), vec![glowing]);
         let environment = Environment::new(|_| Vec3::ONE);
-        corners(&mut scene, &exhibit, 1.0, &BakedLight { environment: &environment, env_intensity: 1.0, area: None });
+        corners(
+            &mut scene,
+            &exhibit,
+            1.0,
+            &BakedLight { environment: &environment, env_intensity: 1.0, area: None, lamps: &[] },
+        );
         let exact = PI * 0.5 / 0.7;
         let inner =
             scene.vertices.iter().filter(|v| v.position.abs().to_array().iter().filter(|c| **c > 0.95).count() == 1);

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{Vec3, Vec4};
 
+use super::baked::Baked;
 use super::gpu_exhibit::GpuExhibit;
 use super::passes::{Pass, PassPlan};
 use super::pipelines::Pipelines;
@@ -46,7 +47,8 @@ impl Renderer {
     /// Where the exhibit has too many bodies.
     pub fn new(gpu: &Gpu, exhibit: &Exhibit, options: Options) -> Result<Self, RenderError> {
         let mut shared = SharedResources::new(gpu, &options);
-        let current = GpuExhibit::new(gpu, &mut shared, &options, exhibit)?;
+        let baked = Baked::new(exhibit, &options.lighting)?;
+        let current = GpuExhibit::new(gpu, &mut shared, &options, exhibit, baked);
         Ok(Self {
             options,
             shared,
@@ -58,13 +60,10 @@ impl Renderer {
         })
     }
 
-    /// Prepares another exhibit while the present one stays visible: meshes, textures and light. Pipelines are created only
-    /// for material properties that no earlier exhibit had.
-    ///
-    /// # Errors
-    /// Where the exhibit has too many bodies.
-    pub fn prepare(&mut self, gpu: &Gpu, exhibit: &Exhibit) -> Result<GpuExhibit, RenderError> {
-        GpuExhibit::new(gpu, &mut self.shared, &self.options, exhibit)
+    /// Prepares another exhibit, baked under this renderer's lighting, while the present one stays visible: meshes and
+    /// textures. Pipelines are created only for material properties that no earlier exhibit had.
+    pub fn prepare(&mut self, gpu: &Gpu, exhibit: &Exhibit, baked: Baked) -> GpuExhibit {
+        GpuExhibit::new(gpu, &mut self.shared, &self.options, exhibit, baked)
     }
 
     /// Shows an exhibit from [`Self::prepare`], from the next frame on.

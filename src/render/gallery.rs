@@ -1,4 +1,4 @@
-//! The built-in gallery: a white room with ceiling softboxes, a window, and two lamps on the exhibit.
+//! The built-in gallery: a grey room with ceiling softboxes, a window, pictures, a doorway, and two lamps on the exhibit.
 //!
 //! The gallery is a box in a frame of its own: `x` to the visitor's right along the wall, `y` up, `z` from the wall to
 //! the visitor. Its light has three parts:
@@ -8,7 +8,8 @@
 //! - reflections between the walls, which `radiosity` computes.
 //!
 //! The same functions bake the gallery's light map and give the radiance that the exhibit reflects, so a mirror shows
-//! the gallery. Radiances are relative: at exposure 1 the wall behind the exhibit has about three quarters of white.
+//! the gallery. Radiances are relative: at exposure 1 the wall behind the exhibit has two fifths of white, so that white paint
+//! on the exhibit is the brightest thing in the picture.
 
 use std::f32::consts::PI;
 
@@ -18,20 +19,22 @@ use soffio_exhibit::Exhibit;
 
 /// Inner faces of the gallery, in the order of the light map's layers and of `gallery.wgsl`.
 pub const FACES: [Face; 6] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right, Face::Back];
-/// Reflectance of the walls, linear RGB: white emulsion paint, slightly warm; chosen by eye.
-pub const WALL_ALBEDO: Vec3 = Vec3::new(0.83, 0.828, 0.82);
-/// Reflectance of the floor, linear RGB, 0 … 1: pale oiled oak, chosen by eye.
-pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.60, 0.545, 0.47);
+/// Reflectance of the walls, linear RGB: a light warm grey, half of what white paint has; chosen by eye.
+pub const WALL_ALBEDO: Vec3 = Vec3::new(0.475, 0.468, 0.455);
+/// Reflectance of the floor, linear RGB, 0 … 1: oiled oak, chosen by eye.
+pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.37, 0.315, 0.25);
 /// Radiance of the ceiling softboxes, linear RGB, relative to exposure 1: chosen by eye, slightly warm.
 const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
 /// Radiance of the window, linear RGB, relative to exposure 1: chosen by eye, cooler than the softboxes.
 const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
 /// Radiance of the wall behind the exhibit by the fields and reflections, relative to exposure 1. With the lamps
-/// it makes about three quarters of white.
-pub const WALL_AMBIENT: f32 = 0.30;
-/// Radiance that the lamps add there, relative to exposure 1, the key lamp's first: a ratio of 3 : 1, chosen by eye,
+/// it makes about two fifths of white.
+pub const WALL_AMBIENT: f32 = 0.11;
+/// Radiance that the lamps add there, relative to exposure 1, the key lamp's first: a ratio of 4 : 1, usual for sculpture,
 /// that models form and keeps the fill's shadow visible.
-const WALL_LAMPS: [f32; 2] = [0.37, 0.12];
+const WALL_LAMPS: [f32; 2] = [0.26, 0.065];
+/// Colour of the key lamp, warm, and of the fill lamp, cool, linear RGB: as halogen beside daylight, chosen by eye.
+const LAMP_COLORS: [Vec3; 2] = [Vec3::new(1.05, 1.0, 0.92), Vec3::new(0.94, 1.0, 1.08)];
 
 /// An inner face of the gallery.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +63,62 @@ pub(super) struct Field {
     pub(super) radiance: Vec3,
 }
 
+/// A rectangle of another reflectance on a face.
+#[derive(Clone, Copy, Debug)]
+pub struct Panel {
+    /// The face.
+    pub face: Face,
+    /// Centre in the face's coordinates, −1 … 1.
+    pub center: Vec2,
+    /// Half size in the face's coordinates.
+    pub half: Vec2,
+    /// Reflectance, linear RGB.
+    pub albedo: Vec3,
+}
+
+impl Panel {
+    /// Whether it covers a point of its face.
+    fn covers(&self, at: Vec2) -> bool {
+        (at - self.center).abs().cmple(self.half).all()
+    }
+}
+
+/// Panels of the gallery: framed pictures on both sides, and behind the visitor a doorway to a dark room. What shines
+/// mirrors them. Where two overlap, the later one covers the earlier.
+pub const PANELS: [Panel; 9] = {
+    const FRAME: Vec3 = Vec3::new(0.06, 0.05, 0.04);
+    const CANVASES: [Vec3; 4] = [
+        Vec3::new(0.30, 0.24, 0.17),
+        Vec3::new(0.12, 0.17, 0.24),
+        Vec3::new(0.33, 0.15, 0.10),
+        Vec3::new(0.20, 0.22, 0.16),
+    ];
+    /// Width of a frame in the face's coordinates.
+    const WIDTH: Vec2 = Vec2::new(0.03, 0.02);
+    const fn framed(face: Face, center: Vec2, half: Vec2, canvas: Vec3) -> [Panel; 2] {
+        let inner = Vec2::new(half.x - WIDTH.x, half.y - WIDTH.y);
+        [Panel { face, center, half, albedo: FRAME }, Panel { face, center, half: inner, albedo: canvas }]
+    }
+    // Coordinates of the sides: up, then along; of the back: along, then up.
+    let [a, b] = framed(Face::Right, Vec2::new(-0.05, -0.45), Vec2::new(0.34, 0.22), CANVASES[0]);
+    let [c, d] = framed(Face::Right, Vec2::new(-0.10, 0.25), Vec2::new(0.26, 0.28), CANVASES[1]);
+    let [e, f] = framed(Face::Left, Vec2::new(-0.55, -0.55), Vec2::new(0.24, 0.20), CANVASES[2]);
+    let [g, h] = framed(Face::Back, Vec2::new(0.12, 0.0), Vec2::new(0.14, 0.26), CANVASES[3]);
+    let door = Panel {
+        face: Face::Back,
+        center: Vec2::new(0.62, -0.35),
+        half: Vec2::new(0.16, 0.65),
+        albedo: Vec3::new(0.015, 0.015, 0.018),
+    };
+    [a, b, c, d, e, f, g, h, door]
+};
+
+/// Reflectance of a point of a face, −1 … 1 in its coordinates.
+pub fn reflectance(face: Face, at: Vec2) -> Vec3 {
+    let covering = PANELS.iter().rev().find(|panel| panel.face == face && panel.covers(at));
+    covering.map_or(if face == Face::Floor { FLOOR_ALBEDO } else { WALL_ALBEDO }, |panel| panel.albedo)
+}
+
 /// A disc lamp that lights the exhibit.
 #[derive(Clone, Copy, Debug)]
 pub struct Lamp {
@@ -75,6 +134,17 @@ pub struct Lamp {
     pub cos_inner: f32,
     /// Cosine of the half-angle at which the cone ends.
     pub cos_outer: f32,
+}
+
+impl Lamp {
+    /// Irradiance at a world point with this normal, without shadows.
+    pub fn irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let away = point - self.position;
+        let d2 = away.length_squared().max(1e-6);
+        let direction = away / d2.sqrt();
+        let t = ((direction.dot(self.axis) - self.cos_outer) / (self.cos_inner - self.cos_outer)).clamp(0.0, 1.0);
+        self.intensity * (t * t * (3.0 - 2.0 * t) * (-direction).dot(normal).max(0.0) / d2)
+    }
 }
 
 /// The gallery around an exhibit.
@@ -164,12 +234,12 @@ impl Gallery {
                 radius: disc * r,
                 intensity: color * (irradiance * to_foot.length_squared() / cosine),
                 cos_inner: 0.985,
-                cos_outer: 0.84,
+                cos_outer: 0.89,
             }
         };
         [
-            place(Vec3::new(-1.5, 2.0, 4.7), 0.085, Vec3::new(1.02, 1.0, 0.95), WALL_LAMPS[0]),
-            place(Vec3::new(2.0, 2.1, 4.4), 0.16, Vec3::new(0.98, 1.0, 1.03), WALL_LAMPS[1]),
+            place(Vec3::new(-1.5, 2.0, 4.7), 0.085, LAMP_COLORS[0], WALL_LAMPS[0]),
+            place(Vec3::new(2.0, 2.1, 4.4), 0.16, LAMP_COLORS[1], WALL_LAMPS[1]),
         ]
     }
 

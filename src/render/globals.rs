@@ -1,9 +1,9 @@
 //! Uniforms of a frame, in the layout of `common.wgsl`.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Mat4, Vec3, Vec4};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 
-use super::gallery::{FLOOR_ALBEDO, Gallery, WALL_ALBEDO};
+use super::gallery::{FACES, FLOOR_ALBEDO, Gallery, PANELS, WALL_ALBEDO};
 use super::punctual::{MAX_PUNCTUAL, Punctual, PunctualUniform};
 use super::shadows::{ReceivingPlane, ShadowMapCamera};
 use super::{FrameInput, Lighting, ShadowQuality, Tonemap};
@@ -39,7 +39,18 @@ struct PlaneUniform {
     spare2: f32,
 }
 
-/// `Globals` of `common.wgsl`, field by field. It has 36 fields, because it is the layout of the shaders' uniform block.
+/// A rectangle of another reflectance on a face of the gallery.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct PanelUniform {
+    center: Vec2,
+    half: Vec2,
+    albedo: Vec3,
+    /// Index of the face, as in `gallery.wgsl`.
+    face: f32,
+}
+
+/// `Globals` of `common.wgsl`, field by field. It has 37 fields, because it is the layout of the shaders' uniform block.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub(super) struct Globals {
@@ -82,6 +93,7 @@ pub(super) struct Globals {
     irradiance: [Vec4; 9],
     lamps: [LampUniform; 2],
     planes: [PlaneUniform; 2],
+    panels: [PanelUniform; PANELS.len()],
     /// Punctual lights, world frame.
     pub punctual: [PunctualUniform; MAX_PUNCTUAL],
 }
@@ -119,6 +131,10 @@ impl Globals {
         g.environment_origin = gallery.exhibit_center;
         for (to, from) in g.irradiance.iter_mut().zip(irradiance) {
             *to = from.extend(0.0);
+        }
+        for (to, panel) in g.panels.iter_mut().zip(&PANELS) {
+            let face = FACES.iter().position(|face| *face == panel.face).unwrap_or(0);
+            *to = PanelUniform { center: panel.center, half: panel.half, albedo: panel.albedo, face: face as f32 };
         }
         for (to, lamp) in g.lamps.iter_mut().zip(&gallery.lamps) {
             *to = LampUniform {

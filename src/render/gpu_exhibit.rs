@@ -4,11 +4,8 @@
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-use super::bounce;
-use super::casters::casters;
-use super::environment::Environment;
+use super::baked::Baked;
 use super::frames::rows;
-use super::gallery::Gallery;
 use super::globals::Globals;
 use super::light::{LightResources, light_group};
 use super::outlines::{CONTOUR_ROW, Outlines, Ribbon};
@@ -21,7 +18,7 @@ use super::shadows::{ReceivingPlane, ShadowMapCamera};
 use super::shared::SharedResources;
 use super::skins::Skinned;
 use super::wires::{Lines, Segment};
-use super::{FrameInput, Gpu, Lighting, Options, RenderError, ShadowQuality, materials, occlusion};
+use super::{FrameInput, Gpu, Options, ShadowQuality, materials};
 use soffio_exhibit::Exhibit;
 use soffio_math::Pose;
 
@@ -141,23 +138,6 @@ impl Buffers {
     }
 }
 
-/// Bakes the light of the vertices: indirect light of a static scene, else ambient occlusion.
-fn light_corners(
-    scene: &mut Scene,
-    exhibit: &Exhibit,
-    radius: f32,
-    (lighting, environment): (&Lighting, &Environment),
-    is_static: bool,
-) {
-    if is_static {
-        let light =
-            bounce::BakedLight { environment, env_intensity: lighting.env_intensity, area: lighting.area_light };
-        bounce::corners(scene, exhibit, radius, &light);
-    } else {
-        occlusion::corners(scene, exhibit, radius);
-    }
-}
-
 impl GpuExhibit {
     /// Prepares an exhibit: everything that `shared` does not contain already.
     pub(super) fn new(
@@ -165,27 +145,14 @@ impl GpuExhibit {
         shared: &mut SharedResources,
         options: &Options,
         exhibit: &Exhibit,
-    ) -> Result<Self, RenderError> {
+        Baked { mut scene, gallery, environment, ambient, casters }: Baked,
+    ) -> Self {
         let device = &gpu.device;
-        let mut scene = Scene::new(exhibit)?;
         shared.pipelines.ensure(gpu, options, scene.batches.iter().map(|batch| batch.pipeline));
-        let gallery = Gallery::around(exhibit);
         let lighting = &options.lighting;
-        let environment = match &lighting.environment {
-            Some(environment) => environment.clone(),
-            None => Environment::new(|direction| gallery.radiance(direction)).into(),
-        };
-        // Baked light moves with its vertices, which would be wrong for moving bodies.
-        let is_static = exhibit.bodies.is_empty() && exhibit.shapes.is_empty() && lighting.background.is_some();
-        light_corners(&mut scene, exhibit, gallery.radius, (lighting, &environment), is_static);
         let lamp_samples = LAMP_SAMPLES[(options.shadow_quality == ShadowQuality::Full) as usize];
         let planes = ReceivingPlane::of_gallery(&gallery, exhibit, options.shadow_quality);
-        let map = ShadowMapCamera::new(&gallery, lighting, options.shadow_quality, |eye| {
-            if !is_static || lighting.area_light.is_none() {
-                return Vec::new();
-            }
-            casters(&scene, &occlusion::start_geometry(&scene, exhibit).0, gallery.radius, eye)
-        });
+        let map = ShadowMapCamera::new(&gallery, lighting, options.shadow_quality, &casters);
         let globals = Globals::new(
             lighting,
             &gallery,
@@ -196,7 +163,6 @@ impl GpuExhibit {
         );
         let sampled = |of| attachment(device, of, wgpu::TextureUsages::TEXTURE_BINDING);
         let [plane_views, order_views] = [0, 1].map(|which| planes.map(|p| sampled(PassPlan::plane(p.texels)[which])));
-        let ambient = occlusion::planes(&scene, exhibit, &planes, gallery.radius);
         let shadow_plates = PlateShadows::new(std::mem::take(&mut scene.shadow_plates), gallery.lamps, planes);
         let rims = numbers(device, "rims", (RIM_ROW, shadow_plates.rows()));
         let mut skins = std::mem::take(&mut scene.skins);
@@ -214,7 +180,7 @@ impl GpuExhibit {
         let blended = scene.batches.iter().filter(|batch| batch.pipeline.kind == SurfaceKind::Blend).count();
         let lines = Lines::new(exhibit);
         let (frame_count, segment_count) = (exhibit.bodies.len() + 1, lines.count());
-        Ok(Self {
+        Self {
             buffers: Buffers::new(device, &scene, segment_count, &outlines, &shadow_plates),
             bindings: Bindings {
                 contours,
@@ -245,7 +211,7 @@ impl GpuExhibit {
             },
             skins,
             blended: Vec::with_capacity(blended),
-        })
+        }
     }
 
     /// Updates all CPU-side data for a frame.

@@ -15,8 +15,9 @@
 //! | `radiosity` | the gallery's light: form factors, reflections between walls, light map | |
 //! | `environment` | image-based light: prefiltered cube, harmonics, split-sum table | `lighting.wgsl` |
 //! | `scene` | the exhibit as one vertex buffer in body frames | `forward.wgsl` |
-//! | `occlusion` | ambient occlusion of vertices and planes, by ray casting at load | |
-//! | `bounce`, `refine` | indirect light of a static scene, baked into refined triangles | |
+//! | `occlusion` | ray casting at load; ambient occlusion of the planes | |
+//! | `baked` | [`Baked`]: what is computed of an exhibit before its first frame, without a device | |
+//! | `bounce`, `refine` | indirect light, baked into refined triangles | |
 //! | `casters` | shadow casters of a static scene | |
 //! | `textures`, `details` | materials and mip maps; textures of extensions, packed | |
 //! | `globals` | the frame's uniforms | `common.wgsl` |
@@ -64,6 +65,7 @@ use soffio_exhibit::View;
 use soffio_math::Pose;
 use soffio_simulation::{CurveView, DustParticle};
 
+mod baked;
 mod bounce;
 mod casters;
 mod details;
@@ -96,6 +98,7 @@ mod textures;
 mod vertex;
 mod wires;
 
+pub use baked::Baked;
 pub use forward::Renderer;
 pub use gpu::Gpu;
 pub use gpu_exhibit::GpuExhibit;

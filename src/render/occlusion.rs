@@ -1,10 +1,9 @@
-//! Ambient occlusion by ray casting, baked at load: for mesh vertices from nearby parts, for the wall and the floor
-//! from static parts.
+//! Ray casting at load: against all opaque triangles in their start poses, and the ambient occlusion of wall and floor by
+//! static parts.
 //!
 //! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points in each surface's
 //! tangent frame), so its noise does not flicker. It is v = 1 − (1/N) Σ max(0, 1 − d/r), with d the distance to the hit
-//! and r the occlusion radius. Vertices see the exhibit in its start pose. Only near hits count, so parts that swing
-//! far apart do not darken each other permanently.
+//! and r the occlusion radius.
 
 use std::time::Duration;
 
@@ -19,19 +18,10 @@ use super::scene::Scene;
 use super::shadows::ReceivingPlane;
 use soffio_exhibit::Exhibit;
 
-/// Rays of each vertex: steps of 5 %, smoothed by interpolation over the triangles.
-const CORNER_RAYS: u32 = 20;
-/// Most rays of all vertices together; beyond it each has fewer. It bounds the time of a load.
-const MAX_RAYS: usize = 1_500_000;
-/// Fewest rays of a vertex; with fewer the vertices stay unoccluded, as steps of a sixth would show.
-const MIN_RAYS: u32 = 6;
 /// Rays of each texel of a plane: more than of a vertex, since a plane is smooth and noise shows.
 const TEXEL_RAYS: u32 = 32;
 /// Texels along each side of a plane's map. Occlusion of a plane has no sharper edges; chosen by eye.
 pub(super) const PLANE_MAP: u32 = 80;
-/// Occlusion radius of vertices, in radii of the exhibit: chosen by eye, so that joints darken and neighbours do not.
-const OCCLUSION_RADIUS: f32 = 0.22;
-
 /// Ray queries on the scene's opaque triangles, by a bounding volume hierarchy.
 pub(super) struct RayCaster {
     triangles: Vec<Triangle>,
@@ -120,24 +110,6 @@ impl RayCaster {
             hidden += 1.0 - nearest / reach;
         }
         1.0 - hidden / directions.len() as f32
-    }
-}
-
-/// Bakes the visibility of each vertex of the scene.
-pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32) {
-    let (positions, normals) = start_geometry(scene, exhibit);
-    let groups = groups(&positions, &normals, radius);
-    let rays = CORNER_RAYS.min((MAX_RAYS / groups.len().max(1)) as u32);
-    let Some(caster) = (rays >= MIN_RAYS).then(|| RayCaster::of_opaque(scene, &positions)).flatten() else { return };
-    let directions = cosine_directions(rays);
-    let seen = in_parallel(&groups, |group| {
-        let i = group[0] as usize;
-        caster.visibility(positions[i], normals[i], OCCLUSION_RADIUS * radius, &directions)
-    });
-    for (group, visibility) in groups.iter().zip(seen) {
-        for &i in group {
-            scene.vertices[i as usize].set_visibility(visibility);
-        }
     }
 }
 

@@ -79,6 +79,10 @@ pub(super) struct Ribbon {
     tag: u32,
     /// Index of the plate in the low half, of the edge in its silhouette in the high half.
     outline: u32,
+    /// Irradiance from other surfaces.
+    bounce: Vec3,
+    /// Visible fraction of the fill lamp.
+    fill: f32,
 }
 
 /// The silhouettes of a frame.
@@ -292,6 +296,8 @@ impl Outlines {
                 color: appearance.color,
                 tag: appearance.tag,
                 outline: index as u32 | (count as u32) << 16,
+                bounce: appearance.bounce,
+                fill: appearance.fill,
             });
             count += 1;
         }

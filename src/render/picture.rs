@@ -1,10 +1,10 @@
 //! Headless rendering: draw into a texture, read it back.
 //!
-//! Files are supersampled: the picture is drawn larger and reduced in linear light, so that a thin tube of a mesh is a
-//! line and not a row of dashes.
+//! Files may be supersampled: the picture is drawn larger and reduced in linear light, so that a thin tube of a mesh is a
+//! line and not a row of dashes. The mean has lost the shader's dither, so it is dithered again, as in `common.wgsl`.
 
 use super::textures::{to_linear, to_srgb};
-use super::{FrameInput, Gpu, Options, RenderError, Renderer};
+use super::{FrameInput, Gpu, Options, RenderError, Renderer, Tonemap};
 use soffio_exhibit::Exhibit;
 
 /// Format of a headless picture.
@@ -17,6 +17,8 @@ pub struct ImageRenderer {
     target: Option<Target>,
     /// Pixels drawn for each pixel of the picture, along each side.
     supersampling: u32,
+    /// Whether pictures have a tone curve: those without are measurements, and are not dithered.
+    dithers: bool,
 }
 
 /// Texture and read-back buffer of one size.
@@ -45,8 +47,9 @@ impl ImageRenderer {
     pub fn on(gpu: Gpu, exhibit: &Exhibit, adjust: impl FnOnce(&mut Options)) -> Result<Self, RenderError> {
         let mut options = Options::for_gpu(&gpu, FORMAT);
         adjust(&mut options);
+        let dithers = options.lighting.tonemap != Tonemap::Clamp;
         let renderer = Renderer::new(&gpu, exhibit, options)?;
-        Ok(Self { gpu, renderer, target: None, supersampling: 1 })
+        Ok(Self { gpu, renderer, target: None, supersampling: 1, dithers })
     }
 
     /// Draws `supersampling` pixels for each pixel of the picture, along each side, where the device has textures that large.
@@ -82,7 +85,7 @@ impl ImageRenderer {
         let Some(target) = &self.target else { unreachable!("made above") };
         self.renderer.draw(&self.gpu, &target.view, &frame);
         let drawn = target.read(&self.gpu)?;
-        Ok(if supersampling == 1 { drawn } else { means(&drawn, supersampling) })
+        Ok(if supersampling == 1 { drawn } else { means(&drawn, supersampling, self.dithers) })
     }
 }
 
@@ -142,7 +145,7 @@ impl Target {
 
 /// Reduces a picture in linear light by a tent filter two pixels wide, under which a slanting line neither beads nor
 /// blurs.
-fn means(drawn: &image::RgbaImage, side: u32) -> image::RgbaImage {
+fn means(drawn: &image::RgbaImage, side: u32, dithers: bool) -> image::RgbaImage {
     let linear: [f32; 256] = std::array::from_fn(|byte| to_linear(byte as f32 / 255.0));
     let (width, height, side) = (drawn.width() / side, drawn.height() / side, side as i32);
     let tent: Vec<f32> = (-side..side).map(|k| (1.0 - ((k as f32 + 0.5) / side as f32).abs()) / side as f32).collect();
@@ -163,9 +166,24 @@ fn means(drawn: &image::RgbaImage, side: u32) -> image::RgbaImage {
             let row = rows[(from as u32 * width + x) as usize];
             sum.iter_mut().zip(row).for_each(|(sum, c)| *sum += weight * c);
         }
-        let [r, g, b] = sum.map(|c| (255.0 * to_srgb(c) + 0.5) as u8);
+        let noise = if dithers { triangular_noise(x, y) } else { [0.0; 3] };
+        let [r, g, b] = std::array::from_fn(|k| (255.0 * to_srgb(sum[k]) + noise[k] + 0.5) as u8);
         image::Rgba([r, g, b, 255])
     })
+}
+
+/// 32 random bits from a number, as in `common.wgsl`.
+fn hashed(seed: u32) -> u32 {
+    let h = ((seed >> ((seed >> 28) + 4)) ^ seed).wrapping_mul(277_803_737);
+    (h >> 22) ^ h
+}
+
+/// Noise in −1 … 1 of triangular density, one value a channel, as in `common.wgsl`.
+fn triangular_noise(x: u32, y: u32) -> [f32; 3] {
+    let seed = x.wrapping_mul(1_664_525).wrapping_add(y.wrapping_mul(1_013_904_223)).wrapping_add(12345);
+    let a = hashed(seed);
+    let b = hashed(a.wrapping_add(2_654_435_769));
+    [0, 11, 22].map(|shift| (((a >> shift) & 1023) as f32 - ((b >> shift) & 1023) as f32) / 1024.0)
 }
 
 #[cfg(test)]
@@ -176,14 +194,31 @@ mod tests {
     fn black_and_white_make_the_grey_of_half_the_light() {
         let checks =
             image::RgbaImage::from_fn(8, 8, |x, y| image::Rgba([[0, 0, 0, 255], [255; 4]][(x + y) as usize % 2]));
-        let grey = means(&checks, 2);
+        let grey = means(&checks, 2, false);
         // sRGB of linear 0.5; at the border the outermost pixels are repeated.
         assert_eq!(grey.dimensions(), (4, 4));
         assert_eq!(grey.get_pixel(1, 2).0, [188, 188, 188, 255]);
         for byte in 0..=255 {
             let plain = image::RgbaImage::from_pixel(6, 6, image::Rgba([byte, byte, byte, 255]));
-            assert!(means(&plain, 2).pixels().all(|p| p.0[0] == byte), "{byte} comes back as it was");
+            assert!(means(&plain, 2, false).pixels().all(|p| p.0[0] == byte), "{byte} comes back as it was");
         }
+    }
+
+    #[test]
+    fn a_dithered_ramp_has_no_bands_and_each_channel_its_own_noise() {
+        // Between two codes in linear light, a quarter of the way: drawn as every fourth pixel of a block a code higher.
+        let drawn = image::RgbaImage::from_fn(512, 512, |x, y| {
+            let byte = if x % 2 == 0 && y % 2 == 0 { 129 } else { 128 };
+            image::Rgba([byte, byte, byte, 255])
+        });
+        let picture = means(&drawn, 2, true);
+        let inner = picture.pixels().map(|p| p.0).collect::<Vec<_>>();
+        // The mean of 65,536 pixels, each off by half a code or so, is exact to a hundredth of a code.
+        const MEAN: f64 = 0.02;
+        let mean = |k: usize| inner.iter().map(|p| f64::from(p[k])).sum::<f64>() / inner.len() as f64;
+        assert!((0..3).all(|k| (mean(k) - 128.25).abs() < MEAN), "{:?}", [0, 1, 2].map(mean));
+        let together = inner.iter().filter(|p| p[0] == p[1] && p[1] == p[2]).count();
+        assert!(together < inner.len() / 2, "{together} grey pixels of {}", inner.len());
     }
 
     #[test]
@@ -193,7 +228,7 @@ mod tests {
         for at in 8..12 {
             let line =
                 image::RgbaImage::from_fn(24, 24, |x, _| image::Rgba(if x == at { [0, 0, 0, 255] } else { [255; 4] }));
-            let picture = means(&line, 2);
+            let picture = means(&line, 2, false);
             let ink: f32 = (0..12).map(|x| 1.0 - to_linear(f32::from(picture.get_pixel(x, 6).0[0]) / 255.0)).sum();
             assert!((ink - 0.5).abs() < ROUNDING, "{ink} at {at}");
         }

@@ -71,7 +71,7 @@ const VERTEX: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     array_stride: size_of::<Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
     attributes: &wgpu::vertex_attr_array![
-        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32, 6 => Float32x3,
+        0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4, 4 => Float32x4, 5 => Uint32, 6 => Float32x4,
         7 => Uint32
     ],
 };
@@ -89,7 +89,7 @@ const RIBBON: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
     step_mode: wgpu::VertexStepMode::Instance,
     attributes: &wgpu::vertex_attr_array![
         0 => Float32x3, 1 => Float32x3, 2 => Float32x3, 3 => Float32x4, 4 => Float32x4, 5 => Float32x4,
-        6 => Uint32, 7 => Uint32
+        6 => Uint32, 7 => Uint32, 8 => Float32x4
     ],
 };
 /// Layout of an instance of a shadow, as [`ShadowInstance`].

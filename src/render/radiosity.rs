@@ -9,7 +9,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::gallery::{FACES, FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO, WALL_AMBIENT};
+use super::gallery::{FACES, Face, Gallery, PANELS, WALL_ALBEDO, WALL_AMBIENT, reflectance};
 
 /// Texels along each side of a light map layer; its light has no sharper edges.
 pub const LIGHTMAP_SIZE: u32 = 32;
@@ -47,12 +47,13 @@ impl Gallery {
             let points = steps.iter().flat_map(|&a| steps.iter().map(move |&b| c + u * a + v * b));
             points.map(|point| direct(self, point, normal)).sum::<Vec3>() / 16.0
         });
+        let albedo = FACES.map(mean_albedo);
         let mut radiosity = [Vec3::ZERO; 6];
         // Each iteration adds one reflection; 0.8⁶⁰ is below a millionth.
         for _ in 0..60 {
             radiosity = std::array::from_fn(|i| {
                 let [_, _, c] = self.face_axes(FACES[i]);
-                albedo(FACES[i]) * (direct[i] + self.reflected_irradiance(&radiosity, c, -c.normalize()))
+                albedo[i] * (direct[i] + self.reflected_irradiance(&radiosity, c, -c.normalize()))
             });
         }
         radiosity
@@ -90,15 +91,7 @@ impl Gallery {
 
     /// Irradiance of the lamps at a world point, without shadows.
     fn lamp_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
-        let mut sum = Vec3::ZERO;
-        for lamp in &self.lamps {
-            let away = point - lamp.position;
-            let d2 = away.length_squared().max(1e-6);
-            let direction = away / d2.sqrt();
-            let t = ((direction.dot(lamp.axis) - lamp.cos_outer) / (lamp.cos_inner - lamp.cos_outer)).clamp(0.0, 1.0);
-            sum += lamp.intensity * (t * t * (3.0 - 2.0 * t) * (-direction).dot(normal).max(0.0) / d2);
-        }
-        sum
+        self.lamps.iter().map(|lamp| lamp.irradiance(point, normal)).sum()
     }
 
     /// Light map of all faces, face by face: RGB irradiance without lamps, A the radiance of a field.
@@ -151,13 +144,20 @@ impl Gallery {
         let normal = -c.normalize();
         let world_normal = self.x * normal.x + Vec3::Y * normal.y + self.z * normal.z;
         let irradiance = self.field_irradiance(hit, normal) + self.lamp_irradiance(self.to_world(hit), world_normal);
-        albedo(face) / PI * irradiance + self.glow(face, at)
+        reflectance(face, at) / PI * irradiance + self.glow(face, at)
     }
 }
 
-/// Reflectance of a face.
-fn albedo(face: Face) -> Vec3 {
-    if face == Face::Floor { FLOOR_ALBEDO } else { WALL_ALBEDO }
+/// Mean reflectance of a face with its panels.
+fn mean_albedo(face: Face) -> Vec3 {
+    /// Points along each side: a panel's edges then fall between them by a hundredth of the face.
+    const STEPS: u32 = 50;
+    if !PANELS.iter().any(|panel| panel.face == face) {
+        return reflectance(face, Vec2::ZERO);
+    }
+    let at = |k: u32| (k as f32 + 0.5) * 2.0 / STEPS as f32 - 1.0;
+    let points = (0..STEPS * STEPS).map(|k| Vec2::new(at(k % STEPS), at(k / STEPS)));
+    points.map(|point| reflectance(face, point)).sum::<Vec3>() / (STEPS * STEPS) as f32
 }
 
 /// Sign that is never 0.

@@ -25,11 +25,14 @@ impl Scene {
 
     /// Halves each edge that is too long, once; returns whether there was any.
     fn halve(&mut self, longest: f32) -> bool {
+        // Skins place their own vertices in each frame, and no others.
+        let skins: Vec<_> = self.skins.iter().map(|skin| skin.first..skin.first + skin.vertices.len() as u32).collect();
+        let is_skin = |vertex: u32| skins.iter().any(|range| range.contains(&vertex));
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
         let vertices = &mut self.vertices;
         let mut middle = |a: u32, b: u32| -> Option<u32> {
             let (p, q) = (vertices[a.min(b) as usize], vertices[a.max(b) as usize]);
-            (p.position.distance(q.position) > longest).then(|| {
+            (p.position.distance(q.position) > longest && !is_skin(a)).then(|| {
                 *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
                     vertices.push(between(&p, &q));
                     vertices.len() as u32 - 1
@@ -37,7 +40,7 @@ impl Scene {
             })
         };
         let mut indices = Vec::with_capacity(2 * self.indices.len());
-        let (mut opaque, mut casters) = (0, 0);
+        let (mut opaque, mut casters, mut plates) = (0, 0, 0);
         for batch in &mut self.batches {
             let start = indices.len() as u32;
             for t in self.indices[batch.indices.start as usize..batch.indices.end as usize].chunks_exact(3) {
@@ -56,6 +59,9 @@ impl Scene {
                 }
             }
             let end = indices.len() as u32;
+            if batch.indices.end <= self.plate_casters_end {
+                plates = end;
+            }
             if batch.indices.end <= self.opaque_end {
                 opaque = end;
             }
@@ -64,7 +70,8 @@ impl Scene {
             }
             batch.indices = start..end;
         }
-        (self.indices, self.opaque_end, self.casters_end) = (indices, opaque, casters);
+        self.indices = indices;
+        (self.plate_casters_end, self.opaque_end, self.casters_end) = (plates, opaque, casters);
         !middles.is_empty()
     }
 }
@@ -79,6 +86,8 @@ fn between(p: &Vertex, q: &Vertex) -> Vertex {
         tangent: [along[0], along[1], along[2], p.tangent[3]],
         uv: mean(p.uv, q.uv),
         color: mean(p.color, q.color),
+        bounce: 0.5 * (p.bounce + q.bounce),
+        fill: 0.5 * (p.fill + q.fill),
         ..*p
     }
 }

@@ -196,6 +196,7 @@ impl Scene {
                 color: primitive.colors.get(i).copied().unwrap_or([1.0; 4]),
                 tag,
                 bounce: Vec3::ZERO,
+                fill: 1.0,
                 outline: 0,
             });
         }

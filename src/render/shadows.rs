@@ -123,24 +123,23 @@ impl ShadowMapCamera {
         if quality == ShadowQuality::Light { 768 } else { 1024 }
     }
 
-    /// The camera of the area light if there is one, of the key lamp otherwise. It covers everything the exhibit may
-    /// sweep; in a static scene its casters alone, where there are any.
-    pub fn new(
-        gallery: &Gallery,
-        lighting: &Lighting,
-        quality: ShadowQuality,
-        casters: impl FnOnce(Vec3) -> Vec<Vec3>,
-    ) -> Self {
-        let (eye, light_radius) = match &lighting.area_light {
+    /// Position and radius of the light that casts the map, m: the area light if there is one, the key lamp otherwise.
+    pub fn light(gallery: &Gallery, lighting: &Lighting) -> (Vec3, f32) {
+        match &lighting.area_light {
             Some(area) => {
                 let surface = 4.0 * area.half_width.cross(area.half_height).length();
                 (area.center, (surface / std::f32::consts::PI).sqrt())
             }
             None => (gallery.lamps[0].position, gallery.lamps[0].radius),
-        };
+        }
+    }
+
+    /// The camera at that light. It covers everything the exhibit may sweep; in a static scene its casters alone, where there
+    /// are any.
+    pub fn new(gallery: &Gallery, lighting: &Lighting, quality: ShadowQuality, casters: &[Vec3]) -> Self {
+        let (eye, light_radius) = Self::light(gallery, lighting);
         let offset = gallery.exhibit_center - eye;
         let distance = offset.length().max(1.05 * gallery.radius);
-        let casters = casters(eye);
         let low = casters.iter().copied().fold(Vec3::INFINITY, Vec3::min);
         let high = casters.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         let aim = if casters.is_empty() { offset } else { 0.5 * (low + high) - eye };

@@ -19,8 +19,10 @@ pub(super) struct Vertex {
     pub color: [f32; 4],
     /// Index of the frame in the low 16 bits, then ambient visibility, then opacity to lamps, 8 bits each.
     pub tag: u32,
-    /// Baked indirect irradiance of a static scene.
+    /// Baked irradiance from other surfaces.
     pub bounce: Vec3,
+    /// Visible fraction of the fill lamp, 0…1, baked.
+    pub fill: f32,
     /// Index of the plate, where the batch is outlined.
     pub outline: u32,
 }

@@ -9,7 +9,7 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::step::frame_interpolation::SnapshotHistory;
 use soffio_math::{DQuat, Pose};
-use soffio_render::{FrameInput, Gpu, Options, RenderError, Renderer};
+use soffio_render::{Baked, FrameInput, Gpu, Options, RenderError, Renderer};
 use soffio_simulation::{DustParticle, Settings, Simulation, Snapshot, StepInput};
 
 #[path = "../suite/require.rs"]
@@ -140,7 +140,8 @@ fn a_change_of_work_makes_no_pipeline_and_leaves_nothing_on_the_heap() {
     let options = Options::for_gpu(&gpu, FORMAT);
     let mut renderer = Renderer::new(&gpu, &works[1], options.clone()).expect("an exhibit that can be drawn");
     let change = |renderer: &mut Renderer, which: usize| {
-        let work = renderer.prepare(&gpu, &works[which]).expect("an exhibit that can be drawn");
+        let baked = Baked::new(&works[which], &options.lighting).expect("an exhibit that can be drawn");
+        let work = renderer.prepare(&gpu, &works[which], baked);
         renderer.show(work);
         renderer.draw(&gpu, &target, &frame(&works[which], &poses[which], &[]));
         gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("a device");

@@ -16,6 +16,7 @@ use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, ne
 
 use soffio_config::OTHERS;
 use soffio_exhibit::{self as exhibit, Exhibit, Labels};
+use soffio_render::{Baked, Lighting};
 
 /// Quiet time after the last change before an exhibit is loaded.
 pub const QUIET: Duration = Duration::from_millis(300);
@@ -53,8 +54,8 @@ pub struct CatalogEntry {
 
 /// Event of the worker.
 pub enum CatalogEvent {
-    /// Show this exhibit: it was requested, or is on show and has changed.
-    Show(Arc<Exhibit>),
+    /// Show this exhibit with its light: it was requested, or is on show and has changed.
+    Show(Arc<Exhibit>, Box<Baked>),
     /// The requested exhibit does not load; the report.
     Failed(String),
     /// A new or changed entry.
@@ -165,14 +166,17 @@ impl Worker {
     }
 
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {
-        let events = match exhibit::load(&folder) {
+        let event = match exhibit::load(&folder) {
             Ok(exhibit) => {
-                self.shown = folder;
-                CatalogEvent::Show(Arc::new(exhibit))
+                let event = lit(exhibit);
+                if let CatalogEvent::Show(..) = event {
+                    self.shown = folder;
+                }
+                event
             }
             Err(report) => CatalogEvent::Failed(report.to_string()),
         };
-        self.events.send(events).map_err(drop)
+        self.events.send(event).map_err(drop)
     }
 
     fn look(&mut self, folder: &Path, changed: bool) -> Result<(), ()> {
@@ -189,13 +193,21 @@ impl Worker {
                     thumbnail: thumbnail(folder),
                 };
                 if changed && folder == self.shown {
-                    self.events.send(CatalogEvent::Show(Arc::new(exhibit))).map_err(drop)?;
+                    self.events.send(lit(exhibit)).map_err(drop)?;
                 }
                 CatalogEvent::Listed(Box::new(entry))
             }
             Err(report) => CatalogEvent::Rejected(id, report.to_string()),
         };
         self.events.send(events).map_err(drop)
+    }
+}
+
+/// The event that shows an exhibit, with its light; or why it cannot be drawn.
+fn lit(exhibit: Exhibit) -> CatalogEvent {
+    match Baked::new(&exhibit, &Lighting::default()) {
+        Ok(baked) => CatalogEvent::Show(Arc::new(exhibit), Box::new(baked)),
+        Err(error) => CatalogEvent::Failed(format!("{} cannot be drawn: {error}", exhibit.id)),
     }
 }
 

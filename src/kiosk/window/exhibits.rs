@@ -12,7 +12,7 @@ impl App<'_> {
     /// Handles an event of the catalog.
     pub(super) fn handle_catalog_event(&mut self, event: CatalogEvent) {
         match event {
-            CatalogEvent::Show(exhibit) => {
+            CatalogEvent::Show(exhibit, baked) => {
                 self.exhibits.changing = false;
                 self.exhibits.problem = None;
                 self.fleet.record_reload(true, None);
@@ -20,7 +20,7 @@ impl App<'_> {
                 self.visit.accessibility.look_around = false;
                 self.say(format!("{} is on show", exhibit.id));
                 if let Some(show) = &mut self.show {
-                    show.screen.prepare(&exhibit);
+                    show.screen.prepare(&exhibit, *baked);
                     show.live.send(KioskCommand::Exhibit(exhibit));
                 }
                 self.send_controls();

@@ -12,7 +12,7 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use soffio_exhibit::{Exhibit, View};
-use soffio_render::{FrameInput, Gpu, GpuExhibit, Options, Renderer, Sampling, Shaders};
+use soffio_render::{Baked, FrameInput, Gpu, GpuExhibit, Lighting, Options, Renderer, Sampling, Shaders};
 use soffio_simulation::Snapshot;
 
 use crate::pages::fonts;
@@ -181,11 +181,9 @@ impl Screen {
         drawn
     }
 
-    /// Loads the GPU resources of the next exhibit in advance, so that its first frames are not late. An error is reported
-    /// when the exhibit is shown.
-    pub fn prepare(&mut self, exhibit: &Arc<Exhibit>) {
-        // Errors are reported when it is shown.
-        self.next = self.scene.prepare(&self.gpu, exhibit).ok().map(|prepared| (exhibit.clone(), prepared));
+    /// Loads the GPU resources of the next exhibit in advance, so that its first frames are not late.
+    pub fn prepare(&mut self, exhibit: &Arc<Exhibit>, baked: Baked) {
+        self.next = Some((exhibit.clone(), self.scene.prepare(&self.gpu, exhibit, baked)));
     }
 
     /// Shows another exhibit. If it cannot be drawn, the last scene stays.
@@ -197,8 +195,11 @@ impl Screen {
         if let Some((_, prepared)) = self.next.take().filter(|(next, _)| Arc::ptr_eq(next, exhibit)) {
             return self.scene.show(prepared);
         }
-        match self.scene.prepare(&self.gpu, exhibit) {
-            Ok(prepared) => self.scene.show(prepared),
+        match Baked::new(exhibit, &Lighting::default()) {
+            Ok(baked) => {
+                let prepared = self.scene.prepare(&self.gpu, exhibit, baked);
+                self.scene.show(prepared);
+            }
             Err(error) => tracing::error!("{} cannot be drawn: {error}", exhibit.id),
         }
     }

@@ -25,7 +25,9 @@ fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
     let text = std::fs::read_to_string(&sidecar).expect("a sidecar");
 
     std::fs::write(&sidecar, &text).expect("writable");
-    let Some(CatalogEvent::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
+    let Some(CatalogEvent::Show(loaded, _)) = shelf.wait(LONG) else {
+        panic!("the change is noticed, the exhibit valid")
+    };
     assert_eq!(loaded.id, "steel-fish");
     assert!(matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(_))));
 
@@ -51,7 +53,9 @@ fn a_saved_timbre_is_loaded_again_and_a_broken_one_leaves_the_exhibit_on_show() 
     let first = shelf.wait(LONG);
     assert!(matches!(first, Some(CatalogEvent::Listed(_))), "it is listed first");
     folder.write("wheel/timbres/whirr.toml", WHIRR.replace("scale = 40", "scale = 80").as_bytes());
-    let Some(CatalogEvent::Show(loaded)) = shelf.wait(LONG) else { panic!("the change is noticed, the exhibit valid") };
+    let Some(CatalogEvent::Show(loaded, _)) = shelf.wait(LONG) else {
+        panic!("the change is noticed, the exhibit valid")
+    };
     let power = spectrum(&own_timbres::heard(Arc::unwrap_or_clone(loaded), 2)[RATE as usize..], 4800);
     assert!(power[80] > 1e3 * power[90], "an octave higher");
     let listed = shelf.wait(LONG);
@@ -87,7 +91,7 @@ fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_
                     offer.remove(&id);
                     said.push(report);
                 }
-                CatalogEvent::Show(_) | CatalogEvent::Failed(_) => {}
+                CatalogEvent::Show(..) | CatalogEvent::Failed(_) => {}
             }
         }
     };
