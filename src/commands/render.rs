@@ -4,16 +4,20 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::failure::{Failure, Outcome};
+use super::setup::progress_bar;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_offline::pictures::{SUPERSAMPLING, write_png};
+use soffio_render::reference::{self, Reference};
 use soffio_render::scenario::Scenario;
-use soffio_render::{FrameInput, ImageRenderer, Options, Shaders};
+use soffio_render::{FrameInput, ImageRenderer, Lighting, Options, Shaders};
 use soffio_simulation::{STEPS_PER_SECOND, Settings, Simulation, Snapshot, StepInput};
 
 /// Picture size without `--size` or a scenario's.
 const DEFAULT_SIZE: (u32, u32) = (1280, 720);
 /// Longest `--time`, s: a day of the work's life.
 const LONGEST: f64 = 86_400.0;
+/// Most paths per pixel: beyond it no noise is left in eight bits.
+const MOST_SAMPLES: i64 = 65_536;
 
 /// Renders one picture, headless.
 #[derive(clap::Args, Debug, Default)]
@@ -30,6 +34,13 @@ pub struct Args {
     /// Lets the exhibit move for so many seconds first.
     #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true)]
     time: f64,
+    /// Traces paths of light on the processor instead: slow and exact, for posters and for comparison.
+    #[arg(long, conflicts_with = "shaders")]
+    reference: bool,
+    /// Paths per pixel; a power of two is best. Four times as many halve the noise.
+    #[arg(long, value_name = "N", requires = "reference", default_value_t = reference::Settings::default().samples)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=MOST_SAMPLES))]
+    samples: u32,
     /// Folder of shaders to draw with instead of the built-in ones.
     #[arg(long, value_name = "DIR", hide_short_help = true)]
     shaders: Option<PathBuf>,
@@ -65,13 +76,6 @@ pub fn run(args: Args) -> Outcome {
     let size =
         args.size.unwrap_or((scenario.width.unwrap_or(DEFAULT_SIZE.0), scenario.height.unwrap_or(DEFAULT_SIZE.1)));
     let look = scenario.lighting().map_err(Failure::input)?;
-    let shaders = args.shaders.as_deref().map(Shaders::load).transpose().map_err(Failure::input)?;
-    let adjust = |options: &mut Options| {
-        options.lighting = look;
-        options.shaders = shaders.map_or(options.shaders.clone(), Arc::new);
-    };
-    let mut renderer =
-        ImageRenderer::new(&exhibit, adjust).map_err(Failure::of_picture)?.with_supersampling(SUPERSAMPLING);
     let view = scenario.view(exhibit.view(f64::from(size.0) / f64::from(size.1)));
     let exposure = scenario.exposure.unwrap_or(1.0);
     let frame = FrameInput {
@@ -83,8 +87,34 @@ pub fn run(args: Args) -> Outcome {
         exposure,
         time: snapshot.time,
     };
-    let picture = renderer.draw(&frame).map_err(Failure::of_picture)?;
+    let picture = if args.reference {
+        traced(&exhibit, &look, &frame, args.samples)
+    } else {
+        drawn(&exhibit, look, &frame, &args)
+    }?;
     write_png(&picture, &args.output).map_err(Failure::input)
+}
+
+/// The picture by the graphics device.
+fn drawn(exhibit: &Exhibit, look: Lighting, frame: &FrameInput, args: &Args) -> Result<image::RgbaImage, Failure> {
+    let shaders = args.shaders.as_deref().map(Shaders::load).transpose().map_err(Failure::input)?;
+    let adjust = |options: &mut Options| {
+        options.lighting = look;
+        options.shaders = shaders.map_or(options.shaders.clone(), Arc::new);
+    };
+    let mut renderer =
+        ImageRenderer::new(exhibit, adjust).map_err(Failure::of_picture)?.with_supersampling(SUPERSAMPLING);
+    renderer.draw(frame).map_err(Failure::of_picture)
+}
+
+/// The picture by paths of light.
+fn traced(exhibit: &Exhibit, look: &Lighting, frame: &FrameInput, samples: u32) -> Result<image::RgbaImage, Failure> {
+    let settings = reference::Settings { samples, ..Default::default() };
+    let progress = progress_bar(u64::from(frame.size.1));
+    let mut reference = Reference::new(exhibit, look).map_err(Failure::of_picture)?;
+    let picture = reference.picture(frame, settings, &|rows| progress.set_position(u64::from(rows)));
+    progress.finish_and_clear();
+    picture.map_err(Failure::of_picture)
 }
 
 /// The moment after so many steps, between two of them where they are not whole.

@@ -94,7 +94,7 @@ impl Environment {
 }
 
 /// Direction through a point (s, t ∈ −1 … 1, t downwards) of a cube face, not normalised.
-fn face_direction(face: usize, s: f32, t: f32) -> Vec3 {
+pub(super) fn face_direction(face: usize, s: f32, t: f32) -> Vec3 {
     match face {
         0 => Vec3::new(1.0, -t, -s),
         1 => Vec3::new(-1.0, -t, s),
@@ -106,7 +106,7 @@ fn face_direction(face: usize, s: f32, t: f32) -> Vec3 {
 }
 
 /// Face and its coordinates (0 … 1) of a direction.
-fn face_of(d: Vec3) -> (usize, f32, f32) {
+pub(super) fn face_of(d: Vec3) -> (usize, f32, f32) {
     let a = d.abs();
     let (face, m, s, t) = if a.x >= a.y && a.x >= a.z {
         if d.x > 0.0 { (0, a.x, -d.z, -d.y) } else { (1, a.x, d.z, -d.y) }

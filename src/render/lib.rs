@@ -35,6 +35,9 @@
 //! | `forward` | [`Renderer`]: the order of the passes | `dust.wgsl`, `resolve.wgsl`, `upscale.wgsl` |
 //! | `picture` | [`ImageRenderer`]: headless, with read-back and supersampling | |
 //! | `scenario` | scenario files of `soffio render` | |
+//! | `reference` | [`Reference`]: a path tracer of the same scene | |
+//! | `tone` | tone curves, for pictures without a graphics device | |
+//! | `flip` | difference between two pictures as a viewer sees it | |
 //!
 //! Invariants: a frame allocates no GPU memory unless its size changed, and no memory of ours before the device is
 //! called. It depends only on the exhibit, the options and the [`FrameInput`]. A change of exhibit creates no pipeline
@@ -70,6 +73,7 @@ mod bounce;
 mod casters;
 mod details;
 pub mod environment;
+pub mod flip;
 mod forward;
 mod frames;
 pub mod gallery;
@@ -86,6 +90,7 @@ mod pipelines;
 mod plate_shadows;
 mod punctual;
 mod radiosity;
+pub mod reference;
 mod refine;
 mod resources;
 pub mod scenario;
@@ -95,6 +100,7 @@ mod shadows;
 mod shared;
 mod skins;
 mod textures;
+mod tone;
 mod vertex;
 mod wires;
 
@@ -103,6 +109,7 @@ pub use forward::Renderer;
 pub use gpu::Gpu;
 pub use gpu_exhibit::GpuExhibit;
 pub use picture::ImageRenderer;
+pub use reference::Reference;
 pub use shaders::Shaders;
 
 /// Errors of the renderer.

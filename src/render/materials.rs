@@ -14,26 +14,26 @@ use soffio_exhibit::model::{AlphaMode, Appearance, Image, Levels, Model, Sampler
 /// `Material` of `forward.wgsl`. It has 21 fields, because it is the layout of the shader's uniform block.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-struct MaterialUniform {
-    base_color: [f32; 4],
-    emissive: [f32; 3],
-    metallic: f32,
-    roughness: f32,
-    normal_scale: f32,
+pub(super) struct MaterialUniform {
+    pub base_color: [f32; 4],
+    pub emissive: [f32; 3],
+    pub metallic: f32,
+    pub roughness: f32,
+    pub normal_scale: f32,
     occlusion: f32,
-    cutoff: f32,
-    f0: [f32; 3],
-    f90: f32,
-    absorption: [f32; 3],
-    thickness: f32,
-    sheen: [f32; 3],
-    sheen_roughness: f32,
-    transmission: f32,
-    ior: f32,
-    coat: f32,
-    coat_roughness: f32,
-    unlit: f32,
-    coat_normal_scale: f32,
+    pub cutoff: f32,
+    pub f0: [f32; 3],
+    pub f90: f32,
+    pub absorption: [f32; 3],
+    pub thickness: f32,
+    pub sheen: [f32; 3],
+    pub sheen_roughness: f32,
+    pub transmission: f32,
+    pub ior: f32,
+    pub coat: f32,
+    pub coat_roughness: f32,
+    pub unlit: f32,
+    pub coat_normal_scale: f32,
     spare: [f32; 2],
     uv: [[f32; 4]; 2 * PLACES],
 }
@@ -45,7 +45,7 @@ const PLACES: usize = 5 + 9;
 pub(super) fn materials(gpu: &Gpu, model: &Model, shared: &mut SharedResources) -> Vec<wgpu::BindGroup> {
     let SharedResources { layouts, white, no_details, samplers, .. } = shared;
     let mut textures = Textures { gpu, images: &model.images, made: BTreeMap::new(), samplers };
-    let default = Appearance { metallic: 0.0, roughness: 0.6, ..Appearance::default() };
+    let default = default_appearance();
     model
         .materials
         .iter()
@@ -82,8 +82,13 @@ pub(super) fn materials(gpu: &Gpu, model: &Model, shared: &mut SharedResources) 
         .collect()
 }
 
+/// Appearance of primitives without a material: grey paint.
+pub(super) fn default_appearance() -> Appearance {
+    Appearance { metallic: 0.0, roughness: 0.6, ..Appearance::default() }
+}
+
 /// The textures of an appearance in the order of the bindings.
-fn uses(appearance: &Appearance) -> [Option<TextureUse>; 5] {
+pub(super) fn uses(appearance: &Appearance) -> [Option<TextureUse>; 5] {
     [
         appearance.base_color_texture,
         appearance.metallic_roughness_texture,
@@ -93,7 +98,8 @@ fn uses(appearance: &Appearance) -> [Option<TextureUse>; 5] {
     ]
 }
 
-fn uniform(appearance: &Appearance) -> MaterialUniform {
+/// The material's numbers as the shaders read them.
+pub(super) fn uniform(appearance: &Appearance) -> MaterialUniform {
     let mut base_color = appearance.base_color;
     if appearance.alpha == AlphaMode::Opaque {
         // Only the other alpha modes use alpha.

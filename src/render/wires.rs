@@ -13,15 +13,15 @@ use soffio_simulation::{CURVE_POINTS, CurveView};
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 pub(super) struct Segment {
     /// One end, m, and the radius.
-    a: Vec4,
+    pub a: Vec4,
     /// Other end, m, and the metalness.
-    b: Vec4,
+    pub b: Vec4,
     /// Linear colour and roughness.
-    color: Vec4,
+    pub color: Vec4,
     /// Normal, into the segment, of the plane that cuts it at `a`; w is 1 where the wire ends there.
-    cut_a: Vec4,
+    pub cut_a: Vec4,
     /// The same at `b`.
-    cut_b: Vec4,
+    pub cut_b: Vec4,
 }
 
 /// Perceptual roughness of a curve: ink on a board.
