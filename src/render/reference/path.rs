@@ -82,6 +82,7 @@ struct Met {
 }
 
 /// What a ray meets.
+#[allow(clippy::large_enum_variant)] // one at a time, on the stack
 enum Event {
     /// Light that ends the path, weighted.
     End(Vec3),

@@ -7,7 +7,7 @@
 use glam::{Vec2, Vec3};
 
 use super::super::AreaLight;
-use super::super::gallery::{FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO};
+use super::super::gallery::{FLOOR_ALBEDO, Face, Gallery, reflectance};
 use super::bsdf::{AlbedoTable, Bsdf};
 
 /// Perceptual roughness of the floor's varnish.
@@ -97,7 +97,7 @@ impl WallHit {
             let albedo = FLOOR_ALBEDO * boards(self.local.x);
             return Bsdf::varnished(self.normal, view, albedo, FLOOR_ROUGHNESS, table);
         }
-        Bsdf::matte(self.normal, view, WALL_ALBEDO * self.shade(half_height))
+        Bsdf::matte(self.normal, view, reflectance(self.face, self.at) * self.shade(half_height))
     }
 
     /// What the gap leaves of the light of a wall.
