@@ -2,6 +2,8 @@
 
 mod exhibits;
 #[cfg(feature = "kiosk")]
+mod likeness;
+#[cfg(feature = "kiosk")]
 mod picture;
 mod procedural;
 mod scenes;
@@ -34,7 +36,7 @@ const PICTURE_SECONDS: f64 = 2.0;
 #[command(
     after_help = "Examples:\n  soffio bench steel-fish --json\n  soffio bench --seeds 100 --within 4.17\n  soffio bench --scene chain.json --dt 0.001 --json\n  \
                         soffio bench --linear\n  soffio bench --wind\n  soffio bench --sound\n  \
-                        soffio bench --procedural\n  soffio bench steel-fish --picture 1920x1080"
+                        soffio bench --procedural\n  soffio bench steel-fish --picture 1920x1080\n  soffio bench strikers --likeness 640x360"
 )]
 pub struct Args {
     /// Ids under `exhibits/`, or folders; default is every shipped exhibit.
@@ -59,6 +61,15 @@ pub struct Args {
     #[cfg(feature = "kiosk")]
     #[arg(long, value_name = "WxH", value_parser = parse_size, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural"])]
     picture: Option<(u32, u32)>,
+    /// Likeness of the live picture to the reference (`soffio render --reference`) in pictures of this size, at rest and in a
+    /// breath: mean FLIP.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, conflicts_with_all = ["scene", "linear", "wind", "sound", "procedural", "picture"])]
+    likeness: Option<(u32, u32)>,
+    /// Folder for the pictures of `--likeness`.
+    #[cfg(feature = "kiosk")]
+    #[arg(long, value_name = "DIR", requires = "likeness")]
+    pictures: Option<PathBuf>,
     /// Time step of a scene, s; default are those in the scene.
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds, allow_negative_numbers = true, requires = "scene")]
     dt: Option<f64>,
@@ -116,6 +127,11 @@ pub fn run(args: Args) -> Outcome {
     #[cfg(feature = "kiosk")]
     if let Some(size) = args.picture {
         return picture::run(&args.exhibits, size, args.seconds.unwrap_or(PICTURE_SECONDS), args.json);
+    }
+    #[cfg(feature = "kiosk")]
+    if let Some(size) = args.likeness {
+        let seconds = args.seconds.unwrap_or(PICTURE_SECONDS);
+        return likeness::run(&args.exhibits, size, seconds, args.pictures.as_deref(), args.json);
     }
     if args.scene.is_empty() {
         let seconds = args.seconds.unwrap_or(EXHIBIT_SECONDS);
