@@ -165,8 +165,8 @@ pub struct Gallery {
     /// The two lamps; the first is the key.
     pub lamps: [Lamp; 2],
     pub(super) fields: Vec<Field>,
-    /// Radiosity of each face by all light except its own fields.
-    pub(super) radiosity: [Vec3; 6],
+    /// Irradiance of the faces without the direct light of the lamps, face by face, row by row.
+    pub(super) lightmap: Vec<Vec3>,
 }
 
 impl Gallery {
@@ -210,7 +210,7 @@ impl Gallery {
                 cos_outer: 0.0,
             }; 2],
             fields: fields(),
-            radiosity: [Vec3::ZERO; 6],
+            lightmap: Vec::new(),
         };
         gallery.lamps = gallery.place_lamps(behind);
         gallery.solve_radiosity();

@@ -22,8 +22,8 @@ use super::bsdf::disc;
 
 /// Most lights; the gallery has seven, and a model at most eight.
 pub(super) const MAX_LIGHTS: usize = 32;
-/// Probability with which a texel of the sky is chosen evenly instead of by its light, so that bilinear light beside
-/// a bright texel is found too.
+/// Probability with which a texel of the sky is chosen evenly instead of by its light, so that none is missed that
+/// rounding leaves dark.
 const EVENLY: f32 = 0.1;
 
 /// A light.
@@ -208,7 +208,7 @@ impl Sky {
         let texels = &environment.levels[0];
         let size = ((texels.len() / 6) as f32).sqrt() as usize;
         let angles: Vec<f32> = (0..texels.len()).map(|i| solid_angle(i, size)).collect();
-        let light: Vec<f32> = texels.iter().zip(&angles).map(|(c, angle)| c.element_sum() * angle).collect();
+        let light: Vec<f32> = (0..texels.len()).map(|i| mean_over(texels, i, size) * angles[i]).collect();
         let (all, whole) = (light.iter().sum::<f32>().max(1e-20), angles.iter().sum::<f32>());
         let mut sum = 0.0;
         let sums = light.iter().zip(&angles).map(|(l, angle)| {
@@ -257,6 +257,20 @@ impl Sky {
         let direction = face_direction(face, at(column, s), at(row, v)).normalize();
         (direction, self.density_in(texel, direction))
     }
+}
+
+/// Mean over a texel of the bilinear light, summed over the channels: along each axis three quarters of its own, and an
+/// eighth of each neighbour's.
+fn mean_over(texels: &[Vec3], texel: usize, size: usize) -> f32 {
+    let (face, row, column) = place_of(texel, size);
+    let mut sum = 0.0;
+    for (dy, wy) in [(0, 0.125), (1, 0.75), (2, 0.125)] {
+        for (dx, wx) in [(0, 0.125), (1, 0.75), (2, 0.125)] {
+            let inside = |k: usize, d: usize| (k + d).saturating_sub(1).min(size - 1);
+            sum += wx * wy * texels[(face * size + inside(row, dy)) * size + inside(column, dx)].element_sum();
+        }
+    }
+    sum
 }
 
 /// Face, row and column of a texel.

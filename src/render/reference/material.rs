@@ -66,10 +66,11 @@ pub(super) struct Surface {
     /// Is the base colour shown without lighting?
     pub unlit: bool,
     /// 1/m.
-    absorption: Vec3,
+    pub absorption: Vec3,
     /// m.
-    thickness: f32,
-    ior: f32,
+    pub thickness: f32,
+    /// Refractive index.
+    pub ior: f32,
 }
 
 impl Surface {

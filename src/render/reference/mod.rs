@@ -175,6 +175,7 @@ impl<'a> Reference<'a> {
             sky: self.sky,
             background: self.lighting.background.unwrap_or_default(),
             table: &self.table,
+            varnish: true,
             scale: self.gallery.center.abs().max_element() + self.gallery.half.max_element(),
         };
         let camera = Camera::new(frame);

@@ -46,6 +46,8 @@ pub(super) struct Stage<'a> {
     pub background: Vec3,
     /// The split-sum table.
     pub table: &'a AlbedoTable,
+    /// Has the floor of the gallery its varnish? Radiosity is without.
+    pub varnish: bool,
     /// Largest coordinate, m: rays are moved off surfaces by its rounding.
     pub scale: f32,
 }
@@ -170,7 +172,7 @@ impl Stage<'_> {
                 let weight = |last: &Vertex| last.weight(field, last.position.distance_squared(point) / seen);
                 glow += of.radiance * last.map_or(1.0, weight);
             }
-            let bsdf = wall.bsdf(view, gallery.half.y, self.table);
+            let bsdf = wall.bsdf(view, gallery.half.y, self.varnish.then_some(self.table));
             return (light, Event::Surface(Met { point, bsdf, glow, through: None }));
         }
         let light = self.crossed(last, origin, direction, far);

@@ -110,7 +110,7 @@ mod tests {
                         sequence.next()
                     })
                     .collect();
-                let mut once = |stratum: &dyn Fn(&[f32; 4]) -> usize, what: &str| {
+                let once = |stratum: &dyn Fn(&[f32; 4]) -> usize, what: &str| {
                     let mut found: Vec<usize> = points.iter().map(stratum).collect();
                     found.sort_unstable();
                     assert_eq!(found, (0..16).collect::<Vec<_>>(), "{what} at {pixel:?}, set {set}");

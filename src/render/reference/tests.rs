@@ -6,8 +6,9 @@ use std::path::Path;
 use glam::{DVec3, Vec3, Vec4};
 
 use super::super::bounce::tests::hollow_cube;
-use super::super::gallery::{Gallery, Lamp, WALL_ALBEDO};
+use super::super::gallery::{FACES, FLOOR_ALBEDO, Face, Gallery, Lamp, WALL_ALBEDO};
 use super::super::radiosity::polygon_factor;
+use super::super::scene::Scene;
 use super::super::scene::tests::of_primitive;
 use super::super::{AreaLight, FrameInput, ImageRenderer, Lighting, flip};
 use super::bsdf::AlbedoTable;
@@ -49,7 +50,16 @@ fn mean(primitive: Primitive, look: Appearance, lights: &[Light], ray: (Vec3, Ve
     let world = World::new(&scene, scene.vertices.clone(), &[], &materials);
     let table = AlbedoTable::new();
     let sky = lights.iter().position(|light| matches!(light, Light::Sky(_)));
-    let stage = Stage { world: &world, gallery: None, lights, sky, background: Vec3::ONE, table: &table, scale: 1.0 };
+    let stage = Stage {
+        world: &world,
+        gallery: None,
+        lights,
+        sky,
+        background: Vec3::ONE,
+        table: &table,
+        varnish: true,
+        scale: 1.0,
+    };
     let sobol = Sobol::new(paths);
     let one = |i| stage.radiance(ray.0, ray.1.normalize(), &mut sobol.sequence((11, 17), i));
     (0..paths).map(one).sum::<Vec3>() / paths as f32
@@ -114,8 +124,8 @@ fn a_closed_box_that_glows_is_an_integrating_sphere() {
 
 #[test]
 fn white_things_vanish_in_front_of_a_white_sky() {
-    // The energy of several scatterings is compensated by a table with 1 % noise; that of both layers adds up.
-    const TABLE_NOISE: f32 = 0.02;
+    // The energy of several scatterings is compensated by a table that is up to 3 % too bright for rough metal.
+    const TABLE_NOISE: f32 = 0.045;
     let ray = (Vec3::new(3.0, 1.2, 2.0), Vec3::new(-3.0, -1.0, -2.1));
     for metallic in [0.0, 1.0] {
         for roughness in [0.1, 0.5, 1.0] {
@@ -172,22 +182,33 @@ fn frame(exhibit: &Exhibit, size: (u32, u32)) -> FrameInput<'static> {
 
 #[test]
 fn the_empty_gallery_agrees_with_its_radiosity() {
-    // Radiosity takes each wall to be of one brightness. The lamps' beams and the fields are not spread evenly, and
-    // the floor's varnish is not in it. So light that was reflected, a fifth of all, may differ by a sixth.
-    const ONE_BRIGHTNESS: f32 = 0.035;
+    // Noise of 16 384 paths, and the gallery's patches of one brightness each.
+    const PATCHES: f32 = 0.015;
     let exhibit = Exhibit::from_model(Default::default());
     let gallery = Gallery::around(&exhibit);
-    let mut reference = Reference::new(&exhibit, &Lighting::default()).expect("no bodies");
-    // A narrow view at the wall behind the exhibit.
-    let eye = (gallery.exhibit_center + gallery.z * 0.5).as_dvec3();
-    let target = eye - gallery.z.as_dvec3();
-    let view = View { eye, target, up: DVec3::Y, fovy: 0.2 };
-    let frame = FrameInput { view, ..frame(&exhibit, (8, 8)) };
-    let settings = Settings { samples: 256, ..Settings::default() };
-    let seen = reference.radiance(&frame, settings, &|_| ()).expect("a small picture");
-    let seen = seen.iter().sum::<Vec3>() / seen.len() as f32;
-    let solved = gallery.radiance(-gallery.z);
-    assert!((seen / solved - 1.0).abs().max_element() < ONE_BRIGHTNESS, "{seen}, by radiosity {solved}");
+    let mut lights: Vec<Light> = walls::fields(&gallery).into_iter().map(Light::Rectangle).collect();
+    lights.extend(gallery.lamps.map(Light::Lamp));
+    let materials = Materials::new(&exhibit.model);
+    let stage = Stage {
+        world: &World::new(&Scene::default(), Vec::new(), &[], &materials),
+        gallery: Some(&gallery),
+        lights: &lights,
+        sky: None,
+        background: Vec3::ZERO,
+        table: &AlbedoTable::new(),
+        varnish: false,
+        scale: gallery.center.abs().max_element() + gallery.half.max_element(),
+    };
+    let sobol = Sobol::new(16_384);
+    let from = gallery.exhibit_center;
+    // Behind the exhibit, at the foot of the wall, on the floor before it, on the ceiling.
+    for towards in [-gallery.z, -gallery.z - 0.8 * Vec3::Y, gallery.z - 2.0 * Vec3::Y, Vec3::Y - 0.4 * gallery.z] {
+        let towards = towards.normalize();
+        let one = |i| stage.radiance(from, towards, &mut sobol.sequence((5, 5), i));
+        let seen = (0..16_384).map(one).sum::<Vec3>() / 16_384.0;
+        let solved = gallery.radiance(towards);
+        assert!((seen / solved - 1.0).abs().max_element() < PATCHES, "{seen}, by radiosity {solved}");
+    }
 }
 
 #[test]
@@ -199,7 +220,7 @@ fn the_walls_are_painted_and_the_fields_shine_inwards() {
     }
     let hit = walls::hit(&gallery, gallery.exhibit_center, -gallery.z).expect("the wall");
     assert!(hit.normal.distance(gallery.z) < 1e-6);
-    let (f, _) = hit.bsdf(gallery.z, gallery.half.y, &AlbedoTable::new()).value(gallery.z);
+    let (f, _) = hit.bsdf(gallery.z, gallery.half.y, None).value(gallery.z);
     assert!((f * PI - WALL_ALBEDO).abs().max_element() < 1e-6, "{f}");
     let outside = gallery.center + gallery.x * 3.0 * gallery.half.x;
     assert!(walls::hit(&gallery, outside, gallery.x).is_none() && walls::hit(&gallery, outside, gallery.z).is_none());

@@ -43,7 +43,7 @@ pub(super) fn hit(gallery: &Gallery, origin: Vec3, direction: Vec3) -> Option<Wa
     let into = |v: Vec3| Vec3::new(v.dot(gallery.x), v.y, v.dot(gallery.z));
     let (o, d) = (into(origin - gallery.center), into(direction));
     let side = d.map(|c| if c < 0.0 { -1.0 } else { 1.0 });
-    let to = (gallery.half * side - o) / d.map(|c| if c.abs() < 1e-9 { 1e-9_f32.copysign(c) } else { c });
+    let to = (gallery.half * side - o) / (side * d.abs().max(Vec3::splat(1e-9)));
     let distance = to.min_element();
     if distance <= 0.0 {
         return None;
@@ -91,13 +91,18 @@ impl WallHit {
         gallery.fields.iter().enumerate().filter(here).map(|(i, _)| i)
     }
 
-    /// Reflection towards `view` (unit).
-    pub fn bsdf(&self, view: Vec3, half_height: f32, table: &AlbedoTable) -> Bsdf {
-        if self.face == Face::Floor {
-            let albedo = FLOOR_ALBEDO * boards(self.local.x);
-            return Bsdf::varnished(self.normal, view, albedo, FLOOR_ROUGHNESS, table);
+    /// Reflection towards `view` (unit); the floor has its varnish where there is a table for it.
+    pub fn bsdf(&self, view: Vec3, half_height: f32, table: Option<&AlbedoTable>) -> Bsdf {
+        let albedo = match self.face {
+            Face::Floor => FLOOR_ALBEDO * boards(self.local.x),
+            face => reflectance(face, self.at) * self.shade(half_height),
+        };
+        match table {
+            Some(table) if self.face == Face::Floor => {
+                Bsdf::varnished(self.normal, view, albedo, FLOOR_ROUGHNESS, table)
+            }
+            _ => Bsdf::matte(self.normal, view, albedo),
         }
-        Bsdf::matte(self.normal, view, reflectance(self.face, self.at) * self.shade(half_height))
     }
 
     /// What the gap leaves of the light of a wall.
