@@ -114,13 +114,15 @@ fn board_tone(board: f32) -> f32 {
     return 1.0 + 0.07 * pixel_noise(vec2f(board + 4096.0, 77.0));
 }
 
-// Reflection of the gallery in the floor's varnish.
-fn floor_gloss(p: vec3f, normal: vec3f) -> vec3f {
+// Reflection of the gallery in the floor's varnish; its fourth component is the fraction of light that passes the varnish.
+fn floor_gloss(p: vec3f, normal: vec3f) -> vec4f {
     let view = normalize(globals.eye - p);
     let nv = clamp(dot(normal, view), 1e-3, 1.0);
     let ab = textureSampleLevel(dfg, smooth_sampler, vec2f(nv, FLOOR_ROUGHNESS), 0.0).xy;
     let seen = box_projected(p, reflect(-view, normal));
-    return textureSampleLevel(environment, smooth_sampler, seen, FLOOR_ROUGHNESS * globals.env_lods).rgb * (0.04 * ab.x + ab.y);
+    let reflected = 0.04 * ab.x + ab.y;
+    let mirrored = textureSampleLevel(environment, smooth_sampler, seen, FLOOR_ROUGHNESS * globals.env_lods).rgb;
+    return vec4f(mirrored * reflected, 1.0 - reflected);
 }
 
 fn blocked(p: vec3f, face: u32) -> vec2f {
@@ -169,8 +171,9 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     var radiance = albedo / PI * irradiance + vec3f(map.a);
     if v.face == FLOOR {
         let pixel = globals.pixel_angle * length(globals.eye - v.position);
-        radiance *= boards(v.local.x * globals.gallery_half.x, pixel);
-        radiance += floor_gloss(v.position, normal) * open;
+        let gloss = floor_gloss(v.position, normal);
+        radiance *= boards(v.local.x * globals.gallery_half.x, pixel) * gloss.a;
+        radiance += gloss.rgb * open;
     }
     if v.face != FLOOR {
         // The walls end slightly above the floor: a dark gap, antialiased by coverage.

@@ -11,13 +11,15 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::gallery::{FACES, Face, Gallery, WALL_ALBEDO, WALL_AMBIENT, reflectance};
+use super::gallery::{FACES, Face, Field, Gallery, WALL_ALBEDO, WALL_AMBIENT, reflectance};
 use super::occlusion::in_parallel;
 
 /// Texels along each side of a light map layer; its light has no sharper edges.
 pub const LIGHTMAP_SIZE: u32 = 32;
 /// Patches along each side of a face. With twice as many, the light of the wall changes by less than a hundredth.
 const PATCHES: u32 = 8;
+/// Reflectance of the floor's varnish at normal incidence: of any with the index 1.5.
+const VARNISH_F0: f32 = 0.04;
 /// Reflections; 0.5⁴⁰ is below a millionth of a millionth.
 const REFLECTIONS: u32 = 40;
 /// Points along each side of a patch whose mean direct light and reflectance it has.
@@ -77,7 +79,8 @@ impl Gallery {
         self.lightmap = in_parallel(&points, |&(face, at)| {
             let [u, v, c] = self.face_axes(face);
             let (point, normal) = (c + u * at.x + v * at.y, -c.normalize());
-            self.direct_irradiance(point, normal) + reflected_irradiance(&patches, &light, point, normal)
+            let varnish = if face == Face::Floor { Vec3::ZERO } else { self.mirrored_irradiance(point, normal) };
+            self.direct_irradiance(point, normal) + reflected_irradiance(&patches, &light, point, normal) + varnish
         });
     }
 
@@ -107,16 +110,19 @@ impl Gallery {
 
     /// Irradiance at a point of a face with its normal (gallery frame) from the fields alone.
     fn direct_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
-        self.fields.iter().fold(Vec3::ZERO, |sum, field| {
-            let [u, v, c] = self.face_axes(field.face);
-            if c.dot(normal) < -0.99 * c.length() {
-                return sum;
-            }
-            let c = c + u * field.center.x + v * field.center.y;
-            let (u, v) = (u * field.half.x, v * field.half.y);
-            let corners = [c - u - v, c + u - v, c + u + v, c - u + v];
-            sum + field.radiance * PI * polygon_factor(&corners, point, normal)
-        })
+        self.fields.iter().map(|field| self.field_irradiance_of(field, point, normal)).sum()
+    }
+
+    /// The same from one field.
+    fn field_irradiance_of(&self, field: &Field, point: Vec3, normal: Vec3) -> Vec3 {
+        let [u, v, c] = self.face_axes(field.face);
+        // A face does not light itself.
+        if c.dot(normal) < -0.99 * c.length() {
+            return Vec3::ZERO;
+        }
+        let c = c + u * field.center.x + v * field.center.y;
+        let (u, v) = (u * field.half.x, v * field.half.y);
+        field.radiance * PI * polygon_factor(&[c - u - v, c + u - v, c + u + v, c - u + v], point, normal)
     }
 
     /// Irradiance at a point of a face without the direct light of the lamps, by the light map.
@@ -131,6 +137,30 @@ impl Gallery {
             self.lightmap[layer + (y * LIGHTMAP_SIZE + x) as usize]
         };
         of(0, 0).lerp(of(1, 0), share.x).lerp(of(0, 1).lerp(of(1, 1), share.x), share.y)
+    }
+
+    /// Irradiance at a point of a face (gallery frame) by the mirror images that lamps and fields have in the floor's varnish:
+    /// what they send to the image of the point, by Fresnel's fraction. The light map is too coarse to show that the varnish
+    /// is not quite smooth.
+    fn mirrored_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        let image = Vec3::new(point.x, -2.0 * self.half.y - point.y, point.z);
+        let image_normal = Vec3::new(normal.x, -normal.y, normal.z);
+        let reflected = |from: Vec3| {
+            let slant = 1.0 - (from - image).normalize_or_zero().y.abs();
+            VARNISH_F0 + (1.0 - VARNISH_F0) * slant.powi(5)
+        };
+        let of_lamps = self.lamps.iter().map(|lamp| {
+            let away = lamp.position - self.center;
+            let from = Vec3::new(away.dot(self.x), away.y, away.dot(self.z));
+            let world_normal = self.to_world(image_normal) - self.center;
+            reflected(from) * lamp.irradiance(self.to_world(image), world_normal)
+        });
+        let of_fields = self.fields.iter().map(|field| {
+            let [u, v, c] = self.face_axes(field.face);
+            reflected(c + u * field.center.x + v * field.center.y)
+                * self.field_irradiance_of(field, image, image_normal)
+        });
+        of_lamps.sum::<Vec3>() + of_fields.sum::<Vec3>()
     }
 
     /// Irradiance of the lamps at a world point, without shadows.
