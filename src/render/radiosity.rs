@@ -147,7 +147,8 @@ impl Gallery {
         let image_normal = Vec3::new(normal.x, -normal.y, normal.z);
         let reflected = |from: Vec3| {
             let slant = 1.0 - (from - image).normalize_or_zero().y.abs();
-            VARNISH_F0 + (1.0 - VARNISH_F0) * slant.powi(5)
+            let square = slant * slant;
+            VARNISH_F0 + (1.0 - VARNISH_F0) * square * square * slant
         };
         let of_lamps = self.lamps.iter().map(|lamp| {
             let away = lamp.position - self.center;
