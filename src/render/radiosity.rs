@@ -20,6 +20,8 @@ pub const LIGHTMAP_SIZE: u32 = 32;
 const PATCHES: u32 = 8;
 /// Reflectance of the floor's varnish at normal incidence: of any with the index 1.5.
 const VARNISH_F0: f32 = 0.04;
+/// The same, mean over all directions by cosine: what its gloss takes from the boards' light.
+const VARNISH_MEAN: f32 = 0.08;
 /// Reflections; 0.5⁴⁰ is below a millionth of a millionth.
 const REFLECTIONS: u32 = 40;
 /// Points along each side of a patch whose mean direct light and reflectance it has.
@@ -101,7 +103,7 @@ impl Gallery {
                 corners: [center - pu - pv, center + pu - pv, center + pu + pv, center - pu + pv],
                 center,
                 normal,
-                albedo: mean(&|at| reflectance(face, at)),
+                albedo: mean(&|at| reflectance(face, at)) * if face == Face::Floor { 1.0 - VARNISH_MEAN } else { 1.0 },
                 of_lamps: mean(&|at| self.lamp_irradiance(self.to_world(point(at)), world_normal)),
                 of_fields: mean(&|at| self.direct_irradiance(point(at), normal)),
             }

@@ -154,11 +154,12 @@ impl Bsdf {
         Self { frame, facing: normal, diffuse: albedo, gloss, sheen, coat, weights, albedo: albedo.max_element() }
     }
 
-    /// A matte surface under varnish of the floor of the gallery, whose gloss is added as in `gallery.wgsl`.
+    /// A matte surface under varnish of the floor of the gallery, whose gloss takes its part of the light as in `gallery.wgsl`.
     pub fn varnished(normal: Vec3, view: Vec3, albedo: Vec3, roughness: f32, table: &AlbedoTable) -> Self {
         let mut bsdf = Self::matte(normal, view, albedo);
         let ab = table.read(bsdf.frame.view.z, roughness);
         let gloss = Gloss { energy: Vec3::ONE, ..Gloss::new(Vec3::splat(COAT_F0), 1.0, roughness, ab) };
+        bsdf.diffuse *= 1.0 - (COAT_F0 * ab.x + ab.y);
         bsdf.gloss = Some((gloss, 1.0));
         bsdf.weigh(albedo.max_element(), COAT_F0 * ab.x + ab.y, 0.0);
         bsdf
