@@ -7,8 +7,8 @@
 //! d = f + (2x − 1) a t r + (1 − 2y) t u
 //! ```
 //!
-//! [`View::project`] is the inverse. Invariant: a narrower picture still shows everything that the camera shows in its
-//! own aspect, since the vertical angle is widened until the horizontal one is the same.
+//! [`View::project`] is the inverse. Invariant: a picture narrower than the camera's own aspect shows the whole exhibit, since the
+//! vertical angle is widened until it does, or until the horizontal one is the camera's own.
 
 use super::exhibit::Exhibit;
 use soffio_math::{DMat4, DVec3, PI, asin, atan2, rotation, sin, sincos};
@@ -99,6 +99,10 @@ pub const MAX_PITCH_UP: f64 = 5.0 * PI / 18.0;
 /// Steepest elevation of the camera over the target, rad: straight above, the up vector is undefined.
 const MAX_PITCH: f64 = 4.0 * PI / 9.0;
 
+/// Part of the picture that an exhibit may fill in a narrow picture: a margin of a sixteenth on each side, so that nothing is
+/// cut off when it swings.
+const SAFE_MARGIN: f64 = 1.125;
+
 /// tan(fovy / 2).
 fn half_height(fovy: f64) -> f64 {
     let (s, c) = sincos(0.5 * fovy);
@@ -141,8 +145,8 @@ impl Bounds {
 }
 
 impl Exhibit {
-    /// The camera for a picture of this aspect (width / height): that of the camera node, widened where the picture is
-    /// narrower than the camera's own aspect, or one that frames the bounds.
+    /// The camera for a picture of this aspect (width / height): that of the camera node, or one that frames the bounds. Where
+    /// the picture is narrower than the camera's own aspect, it is widened until the exhibit fits.
     pub fn view(&self, aspect: f64) -> View {
         let aspect = if aspect > 0.0 { aspect } else { 16.0 / 9.0 };
         let camera = self.camera_node.and_then(|index| {
@@ -180,10 +184,35 @@ impl Exhibit {
         // A camera that looks away from the exhibit still needs a target.
         let depth = if depth > 1e-3 { depth } else { 1.0 };
         let fovy = match camera.aspect {
-            Some(own) if aspect < own => (2.0 * atan2(half_height(camera.fovy) * own, aspect)).min(MAX_FOVY),
+            Some(own) if aspect < own => {
+                let whole = (2.0 * atan2(half_height(camera.fovy) * own, aspect)).min(MAX_FOVY);
+                let view = View { eye, target: eye + forward * depth, up, fovy: whole };
+                whole.min(self.fitting_fovy(&view, aspect)).max(camera.fovy)
+            }
             _ => camera.fovy,
         };
         View { eye, target: eye + forward * depth, up, fovy }
+    }
+
+    /// Vertical field of view, rad, in which the exhibit just fits with [`SAFE_MARGIN`], wherever it turns about the vertical
+    /// through its middle: a picture upright shows the exhibit, not the whole width of the gallery that a wide one has.
+    fn fitting_fovy(&self, view: &View, aspect: f64) -> f64 {
+        let bounds = self.bounds();
+        if bounds.is_empty() {
+            return view.fovy;
+        }
+        let half = 0.5 * (bounds.max - bounds.min);
+        let swept = half.with_y(0.0).length();
+        let (right, up, forward) = view.axes();
+        let mut needed: f64 = 0.0;
+        for corner in 0..8 {
+            let side = |bit: u32| if corner & bit == 0 { -1.0 } else { 1.0 };
+            let point = bounds.center() + DVec3::new(side(1) * swept, side(2) * half.y, side(4) * swept) - view.eye;
+            // A corner beside or behind the camera cannot be fitted.
+            let depth = point.dot(forward).max(1e-6);
+            needed = needed.max((point.dot(right) / depth).abs() / aspect).max((point.dot(up) / depth).abs());
+        }
+        2.0 * atan2(SAFE_MARGIN * needed, 1.0)
     }
 
     /// A view from the front that shows the whole bounds in any aspect.

@@ -326,18 +326,29 @@ fn dust_adds_light_where_it_is_and_nowhere_else() {
 }
 
 #[test]
-fn a_narrower_picture_shows_all_that_the_camera_shows_in_its_own_aspect() {
+fn a_narrower_picture_shows_the_whole_exhibit_and_as_large_as_it_can() {
     // Rounding of a few double-precision operations.
     const ROUNDING: f64 = 1e-9;
     let exhibit = mobile();
     let own = exhibit.view(1.5);
-    let corner = {
-        let (origin, direction) = own.ray([1.0, 0.3], 1.5);
-        origin + direction * 2.0
-    };
+    let wide = |view: &View, aspect: f64| aspect * (0.5 * view.fovy).tan();
+    let bounds = exhibit.bounds();
     for aspect in [1.4, 1.0, 0.5] {
-        let [x, y] = exhibit.view(aspect).project(corner, aspect).expect("in front");
-        assert!((x - 1.0).abs() < ROUNDING && y > 0.3, "{aspect}: {x} {y}");
+        let view = exhibit.view(aspect);
+        assert!(wide(&view, aspect) <= wide(&own, 1.5) + ROUNDING, "no wider than the camera");
+        let mut reach: f64 = 0.0;
+        for i in 0..8 {
+            let pick = |bit: i32, low: f64, high: f64| if i & bit == 0 { low } else { high };
+            let corner = DVec3::new(
+                pick(1, bounds.min.x, bounds.max.x),
+                pick(2, bounds.min.y, bounds.max.y),
+                pick(4, bounds.min.z, bounds.max.z),
+            );
+            let at = view.project(corner, aspect).expect("in front");
+            assert!(at.iter().all(|c| (0.0..=1.0).contains(c)), "aspect {aspect}, corner {corner}: {at:?}");
+            reach = at.iter().fold(reach, |reach, c| reach.max(2.0 * (c - 0.5).abs()));
+        }
+        assert!(reach > 0.5, "aspect {aspect}: the exhibit reaches only {reach} of the way to an edge");
     }
     assert_eq!(exhibit.view(2.0).fovy, own.fovy, "a wider picture shows more at the sides");
     let moving = exhibit.moving_bounds();
