@@ -331,7 +331,7 @@ fn a_narrower_picture_shows_the_whole_exhibit_and_as_large_as_it_can() {
     const ROUNDING: f64 = 1e-9;
     let exhibit = mobile();
     let own = exhibit.view(1.5);
-    let wide = |view: &View, aspect: f64| aspect * (0.5 * view.fovy).tan();
+    let wide = |view: &soffio_exhibit::View, aspect: f64| aspect * (0.5 * view.fovy).tan();
     let bounds = exhibit.bounds();
     for aspect in [1.4, 1.0, 0.5] {
         let view = exhibit.view(aspect);
