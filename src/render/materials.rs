@@ -1,6 +1,7 @@
 //! Material uniforms, textures and samplers.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
@@ -137,7 +138,7 @@ fn uniform(appearance: &Appearance) -> MaterialUniform {
 /// Uploads each image once for each use.
 struct Textures<'a> {
     gpu: &'a Gpu,
-    images: &'a [Image],
+    images: &'a [Arc<Image>],
     made: BTreeMap<(usize, ColorSpace), wgpu::TextureView>,
     samplers: &'a mut BTreeMap<Sampler, wgpu::Sampler>,
 }
