@@ -35,10 +35,10 @@ pub fn paper(seed: u64) -> Structure {
 /// Felt; its tile is about 0.12 m square.
 pub fn felt(seed: u64) -> Structure {
     let curls = |cells: usize, seed: u64| Field::gradient([cells, cells], seed).map(|n| -n.abs()).standardized();
-    let wool = Field::sum(&[(0.7, &curls(44, seed)), (0.7, &curls(96, seed + 1))]).standardized();
+    let wool = Field::sum(&[(0.6, &curls(70, seed)), (0.8, &curls(150, seed + 1))]).standardized();
     let clumps = Field::fractal([10, 10], 4, seed + 2);
     Structure {
-        brightness: Field::sum(&[(0.075, &wool), (0.045, &clumps)]),
+        brightness: Field::sum(&[(0.075, &wool), (0.03, &clumps)]),
         tint: TINT,
         roughness: Field::sum(&[(0.02, &wool)]),
         height: Field::sum(&[(30e-6, &wool), (60e-6, &clumps)]),
@@ -88,7 +88,7 @@ pub fn stone(seed: u64) -> Structure {
         |_, _, _| true,
     );
     Structure {
-        brightness: Field::sum(&[(0.05, &clouds), (0.035, &grains), (-0.22, &dark)]),
+        brightness: Field::sum(&[(0.03, &clouds), (0.035, &grains), (-0.22, &dark)]),
         tint: WARM,
         roughness: Field::sum(&[(0.05, &clouds), (0.04, &grains)]),
         height: Field::sum(&[(12e-6, &grains), (120e-6, &clouds), (-60e-6, &dark)]),

@@ -31,10 +31,10 @@ pub fn brushed(seed: u64, tint: [f32; 3]) -> Structure {
     let scratches = Field::marks(&deep, seed + 3, |_, _, _| true);
     let waves = Field::fractal([2, 3], 2, seed + 4);
     Structure {
-        brightness: Field::sum(&[(0.035, &grooves), (0.02, &patches), (0.05, &scratches)]),
+        brightness: Field::sum(&[(0.035, &grooves), (0.012, &patches), (0.05, &scratches)]),
         tint,
-        roughness: Field::sum(&[(0.10, &grooves), (0.08, &patches), (-0.15, &scratches)]),
-        height: Field::sum(&[(6e-6, &grooves), (-12e-6, &scratches), (40e-6, &waves)]),
+        roughness: Field::sum(&[(0.10, &grooves), (0.05, &patches), (-0.15, &scratches)]),
+        height: Field::sum(&[(6e-6, &grooves), (-12e-6, &scratches), (7e-6, &waves)]),
     }
 }
 
@@ -46,10 +46,10 @@ pub fn polished(seed: u64, tint: [f32; 3]) -> Structure {
         .standardized();
     let smudges = patches.clone().map(|patch| (patch - 0.6).max(0.0));
     Structure {
-        brightness: Field::sum(&[(0.025, &patches), (0.012, &hairs), (-0.03, &smudges)]),
+        brightness: Field::sum(&[(0.018, &patches), (0.010, &hairs), (-0.02, &smudges)]),
         tint,
-        roughness: Field::sum(&[(0.10, &patches), (0.08, &hairs), (0.35, &smudges)]),
-        height: Field::sum(&[(28e-6, &waves), (0.25e-6, &hairs)]),
+        roughness: Field::sum(&[(0.05, &patches), (0.04, &hairs), (0.08, &smudges)]),
+        height: Field::sum(&[(12e-6, &waves), (0.1e-6, &hairs)]),
     }
 }
 
@@ -64,10 +64,10 @@ pub fn cast(seed: u64, tint: [f32; 3], grain: f32) -> Structure {
         |_, _, _| true,
     );
     Structure {
-        brightness: Field::sum(&[(0.035, &skin), (0.04, &patches), (-0.12, &pits)]),
+        brightness: Field::sum(&[(0.035, &skin), (0.025, &patches), (-0.12, &pits)]),
         tint,
-        roughness: Field::sum(&[(0.06, &skin), (0.14, &patches), (0.25, &pits)]),
-        height: Field::sum(&[(grain, &skin), (60e-6, &waves), (-6.0 * grain, &pits)]),
+        roughness: Field::sum(&[(0.06, &skin), (0.05, &patches), (0.25, &pits)]),
+        height: Field::sum(&[(grain, &skin), (15e-6, &waves), (-6.0 * grain, &pits)]),
     }
 }
 
@@ -80,9 +80,9 @@ pub fn lead(seed: u64) -> Structure {
     let across = Field::marks(&marks(60), seed + 3, |_, _, _| true).transposed();
     let fine = Field::fractal([90, 90], 2, seed + 4);
     Structure {
-        brightness: Field::sum(&[(0.09, &oxide), (0.02, &fine), (0.16, &along), (0.16, &across)]),
+        brightness: Field::sum(&[(0.065, &oxide), (0.02, &fine), (0.16, &along), (0.16, &across)]),
         tint: [1.0, 1.0, 0.95],
         roughness: Field::sum(&[(0.10, &oxide), (0.03, &fine), (-0.2, &along), (-0.2, &across)]),
-        height: Field::sum(&[(110e-6, &dents), (1.5e-6, &fine), (-25e-6, &along), (-25e-6, &across)]),
+        height: Field::sum(&[(45e-6, &dents), (1.5e-6, &fine), (-25e-6, &along), (-25e-6, &across)]),
     }
 }

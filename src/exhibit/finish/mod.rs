@@ -67,7 +67,7 @@ impl EndGrain {
     /// Side of its tile, m.
     pub const TILE: f64 = 0.1;
     /// Brightness over that of a face along the grain: open pores take up more oil.
-    pub const DARKER: f32 = 0.72;
+    pub const DARKER: f32 = 0.85;
     /// Roughness over that of a face.
     pub const ROUGHER: f32 = 1.2;
 
@@ -171,7 +171,7 @@ pub static FINISHES: [Finish; 21] = [
         metal::brushed(51, metal::COPPERY)
     }),
     plain("brass-cast", "brass as it leaves the mould", [0.15; 2], Some([214, 178, 108]), [1.0, 0.4], || {
-        metal::cast(52, metal::COPPERY, 6e-6)
+        metal::cast(52, metal::COPPERY, 4e-6)
     }),
     plain("brass-polished", "polished brass", [0.25; 2], Some([233, 200, 128]), [1.0, 0.2], || {
         metal::polished(53, metal::COPPERY)

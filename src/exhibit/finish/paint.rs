@@ -25,8 +25,8 @@ pub fn sprayed(seed: u64) -> Structure {
     Structure {
         brightness: Field::sum(&[(0.018, &clouds), (0.014, &fine), (0.07, &dust)]),
         tint: TINT,
-        roughness: Field::sum(&[(0.10, &clouds), (0.05, &fine), (0.25, &dust)]),
-        height: Field::sum(&[(3e-6, &peel), (-70e-6, &dents), (18e-6, &clouds)]),
+        roughness: Field::sum(&[(0.05, &clouds), (0.05, &fine), (0.25, &dust)]),
+        height: Field::sum(&[(3e-6, &peel), (-45e-6, &dents), (4e-6, &clouds)]),
     }
 }
 
@@ -38,6 +38,6 @@ pub fn matt(seed: u64) -> Structure {
         brightness: Field::sum(&[(0.02, &clouds), (0.018, &stipple)]),
         tint: TINT,
         roughness: Field::sum(&[(0.05, &clouds), (0.03, &stipple)]),
-        height: Field::sum(&[(9e-6, &stipple), (20e-6, &clouds)]),
+        height: Field::sum(&[(9e-6, &stipple), (8e-6, &clouds)]),
     }
 }

@@ -13,8 +13,9 @@
 //! where a projection along n would smear one texel over the whole thickness. No vertex is split: there are no seams.
 //!
 //! *Other pieces* get a box projection: each triangle is seen along the axis that is nearest to its normal. A vertex between
-//! triangles of different axes is doubled; its normal stays, so that shading stays smooth. Of wood, triangles seen along the grain
-//! show end grain, and become a primitive of their own.
+//! triangles of different axes is doubled; its normal stays, so that shading stays smooth. Of wood, triangles whose normal lies within
+//! 26° of the grain show end grain, and become a primitive of their own; the others are seen from a side, which keeps the end grain of
+//! round pieces small.
 //!
 //! Tangents follow glTF 2.0, 3.7.2.1: w n × t points to where v falls.
 
@@ -49,6 +50,8 @@ const THIN: f64 = 0.1;
 /// … or if the triangles that are parallel to its largest one make up this share of its surface. It is the share from which the
 /// renderer measures the coverage of moving plates at their silhouettes, for which it needs their triangles in one primitive.
 const CAP_SHARE: f64 = 0.75;
+/// Cosine of the largest angle between the grain and the normal of end grain: 26°.
+const END_COSINE: f64 = 0.9;
 /// Cosine of the angle up to which triangles count as parallel: 8°.
 const CAP_COSINE: f64 = 0.99;
 
@@ -123,8 +126,10 @@ fn boxed(
 ) -> Laid {
     let [mut face, mut end] = [Part::new(places.len()), Part::new(places.len())];
     for (triangle, cross) in triangles.iter().zip(crosses) {
-        let seen = side(*cross);
-        let part = if seen.0 == grain && laying.end_tile.is_some() { &mut end } else { &mut face };
+        let is_end = laying.end_tile.is_some() && cross[grain].abs() > END_COSINE * cross.length();
+        let sideways = if laying.end_tile.is_some() && !is_end { DVec3::ONE - DVec3::AXES[grain] } else { DVec3::ONE };
+        let seen = side(*cross * sideways);
+        let part = if is_end { &mut end } else { &mut face };
         for &index in triangle {
             part.add(index, seen);
         }

@@ -60,12 +60,12 @@ pub const BEECH: Species = Species {
     rings: 22,
     figure: 2.2,
     late: 4,
-    contrast: 0.10,
-    fibres: 0.028,
+    contrast: 0.13,
+    fibres: 0.036,
     patches: 0.035,
     pores: None,
     porous_until: 0.0,
-    rays: Some((9000, 0.22)),
+    rays: Some((9000, 0.26)),
 };
 
 /// Walnut: dark, with long pores everywhere.
@@ -193,7 +193,7 @@ impl Species {
 /// Bamboo: straight fibres, and one node in the middle of a tile, which is about 0.3 m × 0.06 m.
 pub fn bamboo(seed: u64) -> Structure {
     let fibres = Field::sum(&[(0.8, &Field::streaks(220, seed)), (0.6, &Field::streaks(60, seed + 1))]).standardized();
-    let patches = Field::fractal([3, 3], 4, seed + 2);
+    let patches = Field::fractal([2, 4], 4, seed + 2);
     let wave = Field::fractal([1, 4], 2, seed + 3);
     // Distance from the node along u, tiles, on a line that is not quite straight.
     let from_node = Field(
@@ -205,7 +205,7 @@ pub fn bamboo(seed: u64) -> Structure {
     // Above each node a pale ring of wax, a centimetre wide.
     let wax = from_node.map(|x| smooth_step(0.0, 0.006, x) * (1.0 - smooth_step(0.012, 0.05, x)));
     Structure {
-        brightness: Field::sum(&[(0.05, &fibres), (0.06, &patches), (-0.5, &groove), (0.14, &wax)]),
+        brightness: Field::sum(&[(0.05, &fibres), (0.035, &patches), (-0.5, &groove), (0.14, &wax)]),
         tint: [0.85, 1.0, 1.3],
         roughness: Field::sum(&[(0.08, &fibres), (0.08, &patches), (0.3, &groove), (0.15, &wax)]),
         height: Field::sum(&[(2e-6, &fibres), (-150e-6, &groove), (60e-6, &wax)]),
