@@ -37,10 +37,11 @@ const PLANES: [[&str; 2]; 4] = [
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let stock_parts = finishes(&mut scene);
-    let mut add = |name, color, roughness| scene.finish(&Finish { name, color, metallic: 0.0, roughness });
-    let ivory = add("Ivory", [0.80, 0.72, 0.56], 0.22);
-    let cloth = add("Green cloth", [0.02, 0.16, 0.07], 0.95);
-    let rubber = add("Dark green cloth", [0.012, 0.10, 0.045], 0.9);
+    let mut add =
+        |name, color, roughness, finish| scene.finish(&Finish { name, color, metallic: 0.0, roughness, finish });
+    let ivory = add("Ivory", [0.80, 0.72, 0.56], 0.22, Some("paint"));
+    let cloth = add("Green cloth", [0.02, 0.16, 0.07], 0.95, Some("felt"));
+    let rubber = add("Dark green cloth", [0.012, 0.10, 0.045], 0.9, Some("felt"));
     let (none, upright) = (DVec3::ZERO, DQuat::IDENTITY);
     let flat = rotation(-0.5 * PI * DVec3::X);
     let frame =

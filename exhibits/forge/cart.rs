@@ -44,9 +44,10 @@ const PLANES: [[&str; 2]; 4] =
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let mut add = |name, color, roughness| scene.finish(&Finish { name, color, metallic: 0.0, roughness });
-    let rubber = add("Rubber", [0.02, 0.02, 0.021], 0.8);
-    let floor = add("Pale lacquer", [0.42, 0.50, 0.50], 0.35);
+    let mut add =
+        |name, color, roughness, finish| scene.finish(&Finish { name, color, metallic: 0.0, roughness, finish });
+    let rubber = add("Rubber", [0.02, 0.02, 0.021], 0.8, Some("paint-matt"));
+    let floor = add("Pale lacquer", [0.42, 0.50, 0.50], 0.35, Some("paint"));
     tray(&finishes, floor).write(&mut scene, Pose::IDENTITY);
     FLOOR.write_planes(&mut scene, PLANES);
     let cart = start();

@@ -166,15 +166,27 @@ fn frame(finishes: &Finishes, cherry: usize) -> Piece {
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let cherry = Finish { name: "Oiled cherry", color: [0.30, 0.115, 0.045], metallic: 0.0, roughness: 0.42 };
+    let cherry = Finish {
+        name: "Oiled cherry",
+        color: [0.30, 0.115, 0.045],
+        metallic: 0.0,
+        roughness: 0.42,
+        finish: Some("beech"),
+    };
     let cherry = scene.finish(&cherry);
-    let steel = Finish { name: "String wire", color: [0.55, 0.55, 0.56], metallic: 0.9, roughness: 0.3 };
-    let gut = Finish { name: "Gut", color: [0.80, 0.66, 0.42], metallic: 0.0, roughness: 0.5 };
+    let steel = Finish {
+        name: "String wire",
+        color: [0.55, 0.55, 0.56],
+        metallic: 0.9,
+        roughness: 0.3,
+        finish: Some("steel-polished"),
+    };
+    let gut = Finish { name: "Gut", color: [0.80, 0.66, 0.42], metallic: 0.0, roughness: 0.5, finish: None };
     let strings = [scene.finish(&steel), scene.finish(&gut)];
     let mut pieces = vec![(frame(&finishes, cherry), DVec3::ZERO)];
     for (k, color) in COLORS.into_iter().enumerate() {
         let name = named(format!("Feather {}", k + 1));
-        let color = scene.finish(&Finish { name, color, metallic: 0.0, roughness: 0.5 });
+        let color = scene.finish(&Finish { name, color, metallic: 0.0, roughness: 0.5, finish: None });
         pieces.push((string(k, strings[k.min(1)]), top(k) - 0.5 * length(k) * DVec3::Y));
         pieces.push((plectrum(k, &finishes, color), top(k) + DVec3::new(0.0, PEG, BEFORE)));
     }

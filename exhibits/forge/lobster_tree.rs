@@ -137,10 +137,11 @@ fn trap() -> Piece {
 /// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
-    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
-    let black = add("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45);
-    let red = add("Vermilion", [0.62, 0.045, 0.012], 0.0, 0.40);
-    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
+    let mut add =
+        |name, color, metallic, roughness, finish| scene.finish(&Finish { name, color, metallic, roughness, finish });
+    let black = add("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45, Some("paint"));
+    let red = add("Vermilion", [0.62, 0.045, 0.012], 0.0, 0.40, Some("paint"));
+    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45, Some("iron-cast"));
     let twigs = [
         Twig {
             leaves: [132.0, 112.0, 96.0],

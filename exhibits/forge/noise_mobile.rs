@@ -81,10 +81,11 @@ fn hoop() -> Vec<BentWire> {
 /// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
-    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
-    let brass = add("Brass", [0.80, 0.57, 0.25], 1.0, 0.26);
-    let red = add("Vermilion", [0.62, 0.045, 0.012], 0.0, 0.40);
-    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
+    let mut add =
+        |name, color, metallic, roughness, finish| scene.finish(&Finish { name, color, metallic, roughness, finish });
+    let brass = add("Brass", [0.80, 0.57, 0.25], 1.0, 0.26, Some("brass-brushed"));
+    let red = add("Vermilion", [0.62, 0.045, 0.012], 0.0, 0.40, Some("paint"));
+    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45, Some("iron-cast"));
     let mut stand = ceiling(iron);
     stand.wires.extend(hoop());
     let arm = TreeNode::branch(BranchNode {

@@ -40,7 +40,7 @@ pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
     let mut silk = |name, color| {
-        let finish = scene.finish(&Finish { name, color, metallic: 0.0, roughness: 0.38 });
+        let finish = scene.finish(&Finish { name, color, metallic: 0.0, roughness: 0.38, finish: None });
         scene.two_sided(finish);
         finish
     };

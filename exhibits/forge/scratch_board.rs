@@ -55,7 +55,13 @@ fn rings() -> Picture {
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let face = scene.finish(&Finish { name: "Planed pine", color: [0.78, 0.56, 0.33], metallic: 0.0, roughness: 0.6 });
+    let face = scene.finish(&Finish {
+        name: "Planed pine",
+        color: [0.78, 0.56, 0.33],
+        metallic: 0.0,
+        roughness: 0.6,
+        finish: Some("pine"),
+    });
     scene.picture(face, &rings()).expect("a picture in memory");
     let flat = rotation(0.5 * PI * DVec3::X);
     let (along, none) = (DQuat::IDENTITY, DVec3::ZERO);

@@ -68,9 +68,10 @@ fn chain(name: char, turn: f64, sense: f64, finish: usize) -> TreeNode {
 /// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
-    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
-    let ice = add("Ice", [0.47, 0.64, 0.76], 0.0, 0.42);
-    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
+    let mut add =
+        |name, color, metallic, roughness, finish| scene.finish(&Finish { name, color, metallic, roughness, finish });
+    let ice = add("Ice", [0.47, 0.64, 0.76], 0.0, 0.42, Some("paint"));
+    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45, Some("iron-cast"));
     let branch = |name: &str, [wire, chord, rise, depth, turn]: [f64; 5], ends| {
         let [radius, chord, rise, depth] = [0.5 * wire, chord, rise, depth].map(|x| x * MM);
         TreeNode::branch(BranchNode { name: name.to_owned(), radius, chord, rise, depth, turn, ends })

@@ -82,15 +82,16 @@ struct Finishes {
 }
 
 fn finishes(scene: &mut Scene) -> Finishes {
-    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
+    let mut add =
+        |name, color, metallic, roughness, finish| scene.finish(&Finish { name, color, metallic, roughness, finish });
     Finishes {
-        black: add("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45),
-        red: add("Red paint", [0.55, 0.018, 0.012], 0.0, 0.40),
-        orange: add("Orange paint", [0.80, 0.17, 0.012], 0.0, 0.40),
-        white: add("White paint", [0.80, 0.78, 0.72], 0.0, 0.45),
-        lead: add("Lead", [0.30, 0.31, 0.33], 1.0, 0.55),
-        steel: add("Brushed steel", [0.45, 0.45, 0.46], 1.0, 0.38),
-        brass: add("Brass", [0.80, 0.57, 0.25], 1.0, 0.30),
+        black: add("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45, Some("paint")),
+        red: add("Red paint", [0.55, 0.018, 0.012], 0.0, 0.40, Some("paint")),
+        orange: add("Orange paint", [0.80, 0.17, 0.012], 0.0, 0.40, Some("paint")),
+        white: add("White paint", [0.80, 0.78, 0.72], 0.0, 0.45, Some("paint")),
+        lead: add("Lead", [0.30, 0.31, 0.33], 1.0, 0.55, Some("lead")),
+        steel: add("Brushed steel", [0.45, 0.45, 0.46], 1.0, 0.38, Some("steel-brushed")),
+        brass: add("Brass", [0.80, 0.57, 0.25], 1.0, 0.30, Some("brass-polished")),
     }
 }
 

@@ -45,11 +45,12 @@ struct Woods {
 
 /// The case, the dial and the rods on which the weights slide.
 pub fn pieces(scene: &mut Scene, finishes: &Finishes, weights: [DVec3; 2]) -> [Piece; 2] {
-    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
+    let mut add =
+        |name, color, metallic, roughness, finish| scene.finish(&Finish { name, color, metallic, roughness, finish });
     let woods = Woods {
-        mahogany: add("Mahogany", [0.150, 0.045, 0.018], 0.0, 0.32),
-        paint: add("Dial paint", [0.82, 0.78, 0.66], 0.0, 0.55),
-        glass: add("Old glass", [0.95, 0.97, 0.95], 0.0, 0.03),
+        mahogany: add("Mahogany", [0.150, 0.045, 0.018], 0.0, 0.32, Some("walnut")),
+        paint: add("Dial paint", [0.82, 0.78, 0.66], 0.0, 0.55, Some("paint-matt")),
+        glass: add("Old glass", [0.95, 0.97, 0.95], 0.0, 0.03, None),
     };
     scene.clear(
         woods.glass,

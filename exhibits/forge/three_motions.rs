@@ -212,8 +212,20 @@ fn hooks() -> [DVec3; 3] {
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let ochre = scene.finish(&Finish { name: "Ochre paint", color: [0.55, 0.26, 0.02], metallic: 0.0, roughness: 0.4 });
-    let grey = scene.finish(&Finish { name: "Grey paint", color: [0.35, 0.35, 0.35], metallic: 0.0, roughness: 0.6 });
+    let ochre = scene.finish(&Finish {
+        name: "Ochre paint",
+        color: [0.55, 0.26, 0.02],
+        metallic: 0.0,
+        roughness: 0.4,
+        finish: Some("paint"),
+    });
+    let grey = scene.finish(&Finish {
+        name: "Grey paint",
+        color: [0.35, 0.35, 0.35],
+        metallic: 0.0,
+        roughness: 0.6,
+        finish: Some("paint-matt"),
+    });
     let mut pieces = vec![(frame(&finishes, grey), DVec3::ZERO)];
     for ((names, hook), clothes) in PUPPETS.iter().zip(hooks()).zip([finishes.blue, finishes.red, ochre]) {
         pieces.extend(puppet(names, hook, clothes, &finishes));

@@ -78,12 +78,13 @@ fn moon(k: usize, [diameter, mass, stem]: [f64; 3], finish: usize) -> Piece {
 /// Designs, balances and writes the model.
 pub fn glb() -> (Mobile, Vec<u8>) {
     let mut scene = Scene::default();
-    let mut add = |name, color, metallic, roughness| scene.finish(&Finish { name, color, metallic, roughness });
-    let night = add("Night blue", [0.012, 0.030, 0.085], 0.0, 0.40);
-    let ivory = add("Ivory", [0.78, 0.72, 0.58], 0.0, 0.45);
-    let gold = add("Leaf gold", [0.85, 0.52, 0.16], 0.9, 0.34);
-    let copper = add("Eclipse red", [0.48, 0.06, 0.022], 0.2, 0.38);
-    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45);
+    let mut add =
+        |name, color, metallic, roughness, finish| scene.finish(&Finish { name, color, metallic, roughness, finish });
+    let night = add("Night blue", [0.012, 0.030, 0.085], 0.0, 0.40, Some("paint"));
+    let ivory = add("Ivory", [0.78, 0.72, 0.58], 0.0, 0.45, Some("paint"));
+    let gold = add("Leaf gold", [0.85, 0.52, 0.16], 0.9, 0.34, Some("brass-polished"));
+    let copper = add("Eclipse red", [0.48, 0.06, 0.022], 0.2, 0.38, Some("paint"));
+    let iron = add("Dark iron", [0.05, 0.05, 0.055], 0.9, 0.45, Some("iron-cast"));
     let finish = |k: usize| match k {
         0 => ivory,
         1 => night,

@@ -175,9 +175,20 @@ fn stage(finishes: &Finishes, boards: usize) -> Piece {
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    let green = scene.finish(&Finish { name: "Green paint", color: [0.03, 0.22, 0.08], metallic: 0.0, roughness: 0.4 });
-    let boards =
-        scene.finish(&Finish { name: "Dark boards", color: [0.16, 0.09, 0.045], metallic: 0.0, roughness: 0.6 });
+    let green = scene.finish(&Finish {
+        name: "Green paint",
+        color: [0.03, 0.22, 0.08],
+        metallic: 0.0,
+        roughness: 0.4,
+        finish: Some("paint"),
+    });
+    let boards = scene.finish(&Finish {
+        name: "Dark boards",
+        color: [0.16, 0.09, 0.045],
+        metallic: 0.0,
+        roughness: 0.6,
+        finish: Some("oak"),
+    });
     let swivel_height = (hip_height() + NECK + ROD) * DVec3::Y;
     let along = DQuat::IDENTITY;
     let car = piece(

@@ -74,10 +74,22 @@ pub const ALUMINIUM: ChimeDesign<'static> = ChimeDesign {
     stocks: &[TubeStock {
         size: [25.4, 1.65],
         density: 2710.0,
-        finish: Finish { name: "Brushed aluminium", color: [0.78, 0.79, 0.80], metallic: 1.0, roughness: 0.26 },
+        finish: Finish {
+            name: "Brushed aluminium",
+            color: [0.78, 0.79, 0.80],
+            metallic: 1.0,
+            roughness: 0.26,
+            finish: Some("aluminium-brushed"),
+        },
         glass: None,
     }],
-    sail: Finish { name: "Signal red", color: [0.55, 0.03, 0.018], metallic: 0.0, roughness: 0.45 },
+    sail: Finish {
+        name: "Signal red",
+        color: [0.55, 0.03, 0.018],
+        metallic: 0.0,
+        roughness: 0.45,
+        finish: Some("paint"),
+    },
 };
 
 /// Bamboo, C5 to A5.
@@ -87,10 +99,22 @@ pub const BAMBOO: ChimeDesign<'static> = ChimeDesign {
     stocks: &[TubeStock {
         size: [30.0, 4.0],
         density: 660.0,
-        finish: Finish { name: "Bamboo", color: [0.58, 0.42, 0.17], metallic: 0.0, roughness: 0.50 },
+        finish: Finish {
+            name: "Bamboo",
+            color: [0.58, 0.42, 0.17],
+            metallic: 0.0,
+            roughness: 0.50,
+            finish: Some("bamboo"),
+        },
         glass: None,
     }],
-    sail: Finish { name: "Leaf green", color: [0.05, 0.17, 0.06], metallic: 0.0, roughness: 0.50 },
+    sail: Finish {
+        name: "Leaf green",
+        color: [0.05, 0.17, 0.06],
+        metallic: 0.0,
+        roughness: 0.50,
+        finish: Some("paint"),
+    },
 };
 
 /// Soda-lime glass, C5 to A5.
@@ -100,7 +124,7 @@ pub const GLASS: ChimeDesign<'static> = ChimeDesign {
     stocks: &[TubeStock {
         size: [20.0, 1.8],
         density: 2500.0,
-        finish: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08 },
+        finish: Finish { name: "Sea glass", color: [0.78, 0.93, 0.90], metallic: 0.0, roughness: 0.08, finish: None },
         glass: Some(Glass {
             wall_thickness: 1.8 * MM,
             ior: 1.52,
@@ -109,7 +133,13 @@ pub const GLASS: ChimeDesign<'static> = ChimeDesign {
             attenuation_distance: 0.012,
         }),
     }],
-    sail: Finish { name: "Deep sea", color: [0.015, 0.07, 0.16], metallic: 0.0, roughness: 0.40 },
+    sail: Finish {
+        name: "Deep sea",
+        color: [0.015, 0.07, 0.16],
+        metallic: 0.0,
+        roughness: 0.40,
+        finish: Some("paint"),
+    },
 };
 
 /// Steel conduit, copper water pipe and brass tube: C5 of each, then G5 of each.
@@ -120,23 +150,41 @@ pub const METALS: ChimeDesign<'static> = ChimeDesign {
         TubeStock {
             size: [17.9, 1.07],
             density: STEEL,
-            finish: Finish { name: "Bright steel", color: [0.50, 0.51, 0.53], metallic: 1.0, roughness: 0.22 },
+            finish: Finish {
+                name: "Bright steel",
+                color: [0.50, 0.51, 0.53],
+                metallic: 1.0,
+                roughness: 0.22,
+                finish: Some("steel-polished"),
+            },
             glass: None,
         },
         TubeStock {
             size: [22.2, 1.14],
             density: COPPER,
-            finish: Finish { name: "Copper", color: [0.80, 0.33, 0.19], metallic: 1.0, roughness: 0.28 },
+            finish: Finish {
+                name: "Copper",
+                color: [0.80, 0.33, 0.19],
+                metallic: 1.0,
+                roughness: 0.28,
+                finish: Some("copper"),
+            },
             glass: None,
         },
         TubeStock {
             size: [19.05, 1.65],
             density: BRASS,
-            finish: Finish { name: "Polished brass", color: [0.80, 0.57, 0.25], metallic: 1.0, roughness: 0.24 },
+            finish: Finish {
+                name: "Polished brass",
+                color: [0.80, 0.57, 0.25],
+                metallic: 1.0,
+                roughness: 0.24,
+                finish: Some("brass-polished"),
+            },
             glass: None,
         },
     ],
-    sail: Finish { name: "Plum", color: [0.14, 0.02, 0.10], metallic: 0.0, roughness: 0.45 },
+    sail: Finish { name: "Plum", color: [0.14, 0.02, 0.10], metallic: 0.0, roughness: 0.45, finish: Some("paint") },
 };
 
 struct FinishIndices {
@@ -294,8 +342,15 @@ pub fn glb(design: &ChimeDesign) -> Vec<u8> {
             color: [0.30, 0.115, 0.045],
             metallic: 0.0,
             roughness: 0.42,
+            finish: Some("beech"),
         }),
-        iron: scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 }),
+        iron: scene.finish(&Finish {
+            name: "Dark iron",
+            color: [0.05, 0.05, 0.055],
+            metallic: 0.9,
+            roughness: 0.45,
+            finish: Some("iron-cast"),
+        }),
     };
     for (stock, &finish) in design.stocks.iter().zip(&finishes.tubes) {
         if let Some(glass) = &stock.glass {

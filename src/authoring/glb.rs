@@ -29,6 +29,8 @@ pub struct Finish {
     pub metallic: f64,
     /// Perceptual roughness, 0…1.
     pub roughness: f64,
+    /// Name of what gives it its visible structure, one of [`soffio_exhibit::finish::FINISHES`].
+    pub finish: Option<&'static str>,
 }
 
 /// Optical properties of glass.
@@ -113,14 +115,18 @@ impl Scene {
     /// Adds a finish and returns its index.
     pub fn finish(&mut self, finish: &Finish) -> usize {
         let [r, g, b] = finish.color;
-        self.materials.push(json!({
+        let mut material = json!({
             "name": finish.name,
             "pbrMetallicRoughness": {
                 "baseColorFactor": [r, g, b, 1.0],
                 "metallicFactor": finish.metallic,
                 "roughnessFactor": finish.roughness,
             },
-        }));
+        });
+        if let Some(structure) = finish.finish {
+            material["extras"] = json!({ "soffio_finish": structure });
+        }
+        self.materials.push(material);
         self.materials.len() - 1
     }
 

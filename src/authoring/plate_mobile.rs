@@ -96,16 +96,16 @@ impl Metal {
     }
 
     fn finishes(self) -> Vec<Finish> {
-        let finish = |name, color, metallic, roughness| Finish { name, color, metallic, roughness };
+        let finish = |name, color, metallic, roughness, finish| Finish { name, color, metallic, roughness, finish };
         match self {
-            Self::Brass => vec![finish("Brass", [0.80, 0.57, 0.25], 1.0, 0.28)],
-            Self::Copper => vec![finish("Copper", [0.86, 0.45, 0.32], 1.0, 0.28)],
+            Self::Brass => vec![finish("Brass", [0.80, 0.57, 0.25], 1.0, 0.28, Some("brass-brushed"))],
+            Self::Copper => vec![finish("Copper", [0.86, 0.45, 0.32], 1.0, 0.28, Some("copper"))],
             Self::Aluminium | Self::Steel => vec![
-                finish("Red paint", [0.55, 0.018, 0.012], 0.0, 0.40),
-                finish("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45),
-                finish("Yellow paint", [0.72, 0.42, 0.02], 0.0, 0.42),
-                finish("Blue paint", [0.02, 0.08, 0.35], 0.0, 0.40),
-                finish("White paint", [0.80, 0.78, 0.72], 0.0, 0.45),
+                finish("Red paint", [0.55, 0.018, 0.012], 0.0, 0.40, Some("paint")),
+                finish("Black paint", [0.012, 0.012, 0.013], 0.0, 0.45, Some("paint")),
+                finish("Yellow paint", [0.72, 0.42, 0.02], 0.0, 0.42, Some("paint")),
+                finish("Blue paint", [0.02, 0.08, 0.35], 0.0, 0.40, Some("paint")),
+                finish("White paint", [0.80, 0.78, 0.72], 0.0, 0.45, Some("paint")),
             ],
         }
     }
@@ -271,7 +271,13 @@ pub fn mobile(title: &str, outlines: &[Outline], thickness: f64, metal: Metal) -
 
     let mut scene = Scene::default();
     let finishes: Vec<usize> = metal.finishes().iter().map(|finish| scene.finish(finish)).collect();
-    let iron = scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 });
+    let iron = scene.finish(&Finish {
+        name: "Dark iron",
+        color: [0.05, 0.05, 0.055],
+        metallic: 0.9,
+        roughness: 0.45,
+        finish: Some("iron-cast"),
+    });
     let alone = sorted.len() % 2;
     let pairs: Vec<[usize; 2]> = (alone..sorted.len()).step_by(2).map(|k| [k, k + 1]).collect();
     let cut = |k: usize, stem: f64| cut(k, sorted[k], stem, thickness, metal, finishes[k % finishes.len()]);

@@ -216,8 +216,20 @@ fn mobile_words(count: usize) -> Vec<LabelTexts> {
 /// One disc on a stem: the simplest exhibit that swings in a breath.
 pub fn empty(id: &str) -> ExhibitFolder {
     let mut scene = Scene::default();
-    let red = scene.finish(&Finish { name: "Red paint", color: [0.55, 0.018, 0.012], metallic: 0.0, roughness: 0.40 });
-    let iron = scene.finish(&Finish { name: "Dark iron", color: [0.05, 0.05, 0.055], metallic: 0.9, roughness: 0.45 });
+    let red = scene.finish(&Finish {
+        name: "Red paint",
+        color: [0.55, 0.018, 0.012],
+        metallic: 0.0,
+        roughness: 0.40,
+        finish: Some("paint"),
+    });
+    let iron = scene.finish(&Finish {
+        name: "Dark iron",
+        color: [0.05, 0.05, 0.055],
+        metallic: 0.9,
+        roughness: 0.45,
+        finish: Some("iron-cast"),
+    });
     let hook = 0.45 * DVec3::Y;
     let stock = SheetStock { thickness: 1.0 * MM, density: ALUMINIUM, finish: red };
     let disc = disc(["Disc", "DiscHook", "DiscStem"], 120.0 * MM, 90.0 * MM, stock);

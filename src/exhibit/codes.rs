@@ -75,6 +75,7 @@ codes! {
     EXPRESSION = "E0269", "a text is no expression";
     BROKEN_TIMBRE = "E0270", "a timbre of the exhibit is not valid";
     NO_FORCE = "E0271", "a timbre follows a force that its sound does not name";
+    UNKNOWN_FINISH = "E0272", "no finish of this name";
     BROKEN_MODEL = "E0301", "the model is broken";
     EXTENSION = "E0302", "the model requires an extension that is not supported";
     MODEL_LIMIT = "E0303", "the model exceeds a limit";

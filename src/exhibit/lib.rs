@@ -13,6 +13,7 @@
 //! | [`Report`], [`Diagnostic`], [`codes`] | problems: what is wrong, where, and what to do |
 //! | [`sidecar`] | the tables of `exhibit.toml`, from which the JSON Schema is made |
 //! | [`model`] | the glTF model: meshes, materials, nodes, animations, cameras |
+//! | [`finish`] | wood, metal, paint: maps, and how they are laid on meshes |
 //! | [`renamed`] | old names of keys, for reading, the schema and `soffio check --fix` |
 //! | [`labels`] | label texts by language, and as a table for translators |
 //!
@@ -36,6 +37,7 @@ pub mod clock;
 pub mod codes;
 pub mod diagnostic;
 mod exhibit;
+pub mod finish;
 pub mod fit;
 pub mod labels;
 pub mod materials;

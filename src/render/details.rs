@@ -11,6 +11,8 @@
 //! Each texture keeps its own coordinates (set and transform), since it is sampled by itself. Smaller images are
 //! enlarged to the largest of their array, which changes only which four pixels are blended.
 
+use std::sync::Arc;
+
 use super::Gpu;
 use super::textures::{ColorSpace, texture};
 use soffio_exhibit::model::{Details, Image, TextureUse};
@@ -21,7 +23,7 @@ type Fill = (Option<TextureUse>, usize, usize, usize);
 /// The texture arrays of an appearance: colours and data; unused channels are white.
 pub(super) fn views(
     gpu: &Gpu,
-    images: &[Image],
+    images: &[Arc<Image>],
     of: &Details,
     none: &[wgpu::TextureView; 2],
 ) -> [wgpu::TextureView; 2] {
@@ -55,10 +57,10 @@ fn array(gpu: &Gpu, layers: &[Image], space: ColorSpace) -> wgpu::TextureView {
 }
 
 /// The packed layers, as large as the largest image in them; `None` where no texture is used.
-fn pack(images: &[Image], layers: &[&[Fill]], limit: u32) -> Option<Vec<Image>> {
+fn pack(images: &[Arc<Image>], layers: &[&[Fill]], limit: u32) -> Option<Vec<Image>> {
     let image = |of: &Fill| {
         let image = images.get(of.0?.image)?;
-        (image.width > 0 && image.height > 0 && image.width.max(image.height) <= limit).then_some(image)
+        (image.width > 0 && image.height > 0 && image.width.max(image.height) <= limit).then_some(&**image)
     };
     let used: Vec<&Image> = layers.iter().flat_map(|layer| layer.iter().filter_map(image)).collect();
     let (width, height) = (used.iter().map(|i| i.width).max()?, used.iter().map(|i| i.height).max()?);
@@ -102,7 +104,7 @@ mod tests {
         let two = Image { width: 2, height: 1, rgba: vec![0, 100, 0, 0, 200, 50, 0, 0] };
         let of = |image: usize| Some(TextureUse::of(image));
         let layers: [&[Fill]; 2] = [&[(of(0), 1, 0, 1), (of(1), 0, 2, 1)], &[(None, 0, 0, 3), (of(9), 0, 3, 1)]];
-        let packed = pack(&[one, two], &layers, 8).expect("two images");
+        let packed = pack(&[Arc::new(one), Arc::new(two)], &layers, 8).expect("two images");
         assert_eq!((packed[0].width, packed[0].height), (2, 1));
         assert_eq!(packed[0].rgba, [20, 255, 0, 255, 20, 255, 200, 255]);
         assert_eq!(packed[1].rgba, [255; 8], "what is not there changes nothing");

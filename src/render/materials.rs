@@ -1,6 +1,7 @@
 //! Material uniforms, textures and samplers.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 use wgpu::util::DeviceExt;
@@ -143,7 +144,7 @@ pub(super) fn uniform(appearance: &Appearance) -> MaterialUniform {
 /// Uploads each image once for each use.
 struct Textures<'a> {
     gpu: &'a Gpu,
-    images: &'a [Image],
+    images: &'a [Arc<Image>],
     made: BTreeMap<(usize, ColorSpace), wgpu::TextureView>,
     samplers: &'a mut BTreeMap<Sampler, wgpu::Sampler>,
 }

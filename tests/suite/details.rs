@@ -1,5 +1,7 @@
 //! Textures of what glTF's extensions add: a texel that halves a factor looks as half the factor does.
 
+use std::sync::Arc;
+
 use glam::{DMat4, DVec3};
 use soffio_exhibit::model::{
     self, Appearance, Details, Image, Levels, Mesh, Model, Node, Primitive, Sampler, ScaledTexture, TextureUse, Wrap,
@@ -57,7 +59,7 @@ fn picture(look: Appearance, images: Vec<Image>) -> Option<image::RgbaImage> {
         roots: vec![0],
         meshes: vec![Mesh { name: "panel".into(), primitives: vec![panel()] }],
         materials: vec![look],
-        images,
+        images: images.into_iter().map(Arc::new).collect(),
         ..Model::default()
     };
     let folder = tempfile::tempdir().expect("a folder");

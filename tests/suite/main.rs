@@ -18,6 +18,7 @@ mod exhibit;
 mod exhibits_in_motion;
 mod exports;
 mod expressions;
+mod finishes;
 mod fuzz;
 mod geared;
 mod harp;

@@ -1,8 +1,10 @@
 //! Materials for rendering: metallic–roughness factors and textures.
 
+use crate::finish::Finish;
+
 /// Surface appearance: the metallic–roughness model of glTF 2.0 with its ratified extensions.
 ///
-/// It has 25 fields because it mirrors the file format: one field for each factor and texture of a glTF material.
+/// It has 26 fields because it mirrors the file format: one field for each factor and texture of a glTF material, and its finish.
 #[derive(Clone, Debug)]
 pub struct Appearance {
     /// Name.
@@ -55,6 +57,8 @@ pub struct Appearance {
     pub sheen_roughness: f32,
     /// Textures of the extensions.
     pub details: Details,
+    /// The finish that its extras name: `{"soffio_finish": "oak"}`.
+    pub finish: Option<&'static Finish>,
 }
 
 /// Textures of the material extensions: each multiplies the factor of its name.
@@ -139,6 +143,7 @@ impl Default for Appearance {
             sheen: [0.0; 3],
             sheen_roughness: 0.0,
             details: Details::default(),
+            finish: None,
         }
     }
 }

@@ -4,6 +4,7 @@
 //! from the list before it looks; its index checks stay.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use gltf::json;
 
@@ -345,7 +346,7 @@ impl Reader {
         Ok((skins, morphs))
     }
 
-    fn images(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Image>> {
+    fn images(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Arc<Image>>> {
         let mut pixels = 0;
         let mut images = Vec::new();
         for source in document.images() {
@@ -375,7 +376,7 @@ impl Reader {
                 return Err(self.problem(codes::MODEL_LIMIT, what, help));
             }
             let decoded = open().map_err(|error| undecodable(error.into()))?.decode().map_err(undecodable)?;
-            images.push(Image { width, height, rgba: decoded.into_rgba8().into_raw() });
+            images.push(Arc::new(Image { width, height, rgba: decoded.into_rgba8().into_raw() }));
         }
         Ok(images)
     }

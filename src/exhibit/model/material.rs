@@ -7,6 +7,8 @@ use gltf::material::AlphaMode as GltfAlpha;
 use gltf::texture::{MagFilter, MinFilter, WrappingMode};
 
 use super::appearance::{AlphaMode, Appearance, Details, Levels, Sampler, ScaledTexture, TextureUse, Wrap};
+use crate::diagnostic::quoted;
+use crate::finish::{self, Finish};
 use soffio_math as math;
 
 /// Material extensions that are not drawn.
@@ -38,6 +40,7 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: im
     for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
         (textures.note)(format!("material \"{name}\": {extension} is not drawn"));
     }
+    let finish = finish_of(material, |what| (textures.note)(what));
     let share = |x: f32| x.clamp(0.0, 1.0);
     let number = |extension: &str, key: &str, default: f64| number(material, extension, key, default);
     let color = |extension: &str, key: &str, default: f64| color(material, extension, key, default);
@@ -72,9 +75,25 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: im
         sheen: color("sheen", "sheenColorFactor", 0.0),
         sheen_roughness: share(number("sheen", "sheenRoughnessFactor", 0.0)),
         details,
+        finish,
         name,
     }
 }
+
+/// The finish that a material's extras name.
+fn finish_of(material: &gltf::Material, note: impl FnOnce(String)) -> Option<&'static Finish> {
+    let extras: Value = gltf::json::deserialize::from_str(material.extras().as_ref()?.get()).ok()?;
+    let name = extras.get(FINISH)?.as_str()?;
+    let known = finish::named(name);
+    if known.is_none() {
+        let (material, names) = (material.name().unwrap_or_default(), finish::names().collect::<Vec<_>>());
+        note(format!("material \"{material}\": no finish is named \"{name}\"; there are {}", quoted(&names)));
+    }
+    known
+}
+
+/// Key of a finish in the extras of a material.
+const FINISH: &str = "soffio_finish";
 
 /// Name of the texture-transform extension.
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";

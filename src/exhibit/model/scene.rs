@@ -1,5 +1,7 @@
 //! The glTF scene: its tree of nodes with meshes, cameras and lights.
 
+use std::sync::Arc;
+
 use super::animation::Animation;
 use super::appearance::Appearance;
 use super::mesh::{Mesh, Morph, Skin};
@@ -16,8 +18,8 @@ pub struct Model {
     pub meshes: Vec<Mesh>,
     /// Surface materials.
     pub materials: Vec<Appearance>,
-    /// Decoded images, RGBA8.
-    pub images: Vec<Image>,
+    /// Decoded images, RGBA8; those of finishes are shared by all models.
+    pub images: Vec<Arc<Image>>,
     /// Cameras, by index.
     pub cameras: Vec<Camera>,
     /// Punctual lights, by index.

@@ -2,7 +2,7 @@
 //!
 //! A stage does not stop at its first problem. Values that cannot be resolved are left out and reported, so an exhibit
 //! is returned only without errors. Stages in order: materials, bodies, wires, cords, masses, joints, colliders, wind and
-//! sound, texts.
+//! sound, texts, finishes.
 
 mod bodies;
 mod charts;
@@ -10,6 +10,7 @@ mod clock;
 mod colliders;
 mod context;
 mod cords;
+mod finishes;
 mod joints;
 mod kinds;
 mod materials;
@@ -31,6 +32,7 @@ use super::behavior::{BreathTuning, Motion, TouchPermission};
 use super::bodies::Body;
 use super::diagnostic::{Diagnostic, Report, quoted};
 use super::exhibit::Exhibit;
+use super::finish::{Choice, dress};
 use super::model::{Imported, Model, import};
 use super::own_timbres::OwnTimbres;
 use super::paths::SIDECAR;
@@ -103,7 +105,8 @@ pub fn load_model(model_path: &Path) -> Result<Exhibit, Report> {
 
 impl Exhibit {
     /// An exhibit of a model alone, in which nothing moves, seen through its first camera.
-    pub fn from_model(model: Model) -> Self {
+    pub fn from_model(mut model: Model) -> Self {
+        dress(&mut model, |_| Choice::default());
         let camera_node = model.nodes.iter().position(|node| node.camera.is_some());
         Self { camera_node, ..empty(model, PathBuf::new()) }
     }
@@ -278,7 +281,7 @@ impl Context<'_> {
             labels,
             credit: self.credit(),
             origins: std::mem::take(&mut self.origins),
-            ..empty(self.model.clone(), self.folder.to_path_buf())
+            ..empty(self.dressed(), self.folder.to_path_buf())
         }
     }
 

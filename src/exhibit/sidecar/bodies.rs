@@ -39,6 +39,12 @@ pub struct Body {
     pub path: Option<Path>,
     /// Of a kinematic body: how it follows the model's animation of its node.
     pub animation: Option<Animation>,
+    /// Finish of its meshes, which is how they look: grain, brushing, dust. oak, beech, walnut, pine; brass-brushed, brass-cast,
+    /// brass-polished, steel-brushed, steel-polished, iron-cast, copper, aluminium-brushed, lead; paint, paint-matt; paper, felt,
+    /// leather, cord, stone, bamboo. By default that of its material, or else of the model. Meshes with textures keep them.
+    pub finish: Option<String>,
+    /// Colour of its paint, stain or metal: linear [r, g, b], or sRGB "#rrggbb"; by default that of the finish or the model.
+    pub color: Option<Color>,
     /// Nodes below it of another material.
     #[serde(default)]
     pub part: Vec<Part>,
@@ -121,6 +127,10 @@ pub struct Part {
     pub material: String,
     /// Thickness of the sheet, where the mesh is an open surface.
     pub thickness: Option<Length>,
+    /// Its finish; by default that of its material, or else of the body.
+    pub finish: Option<String>,
+    /// Its colour: linear [r, g, b], or sRGB "#rrggbb"; by default that of the body.
+    pub color: Option<Color>,
 }
 
 /// A wire or cord: drawn as a round rod, has mass, feels the wind.

@@ -310,6 +310,9 @@ pub struct Material {
     /// until its friction is full.
     #[schemars(range(min = 0.0, max = 1.0))]
     pub full_slip: Option<f64>,
+    /// Finish of the bodies and parts of this material, which is how they look: oak, brass-brushed, paint … ; see `finish` of a
+    /// body.
+    pub finish: Option<String>,
 }
 
 /// Override of the combine rule (geometric mean; resistances add) for one pair of materials.

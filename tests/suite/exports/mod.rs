@@ -161,7 +161,7 @@ fn textures_lights_and_layers_read_back_as_they_were() {
         roots: vec![0],
         meshes: vec![Mesh { name: "one".into(), primitives: vec![primitive] }],
         materials: vec![look],
-        images: vec![Image { width: 2, height: 1, rgba: vec![1, 2, 3, 4, 5, 6, 7, 8] }],
+        images: vec![Arc::new(Image { width: 2, height: 1, rgba: vec![1, 2, 3, 4, 5, 6, 7, 8] })],
         lights: vec![light],
         ..Model::default()
     };
