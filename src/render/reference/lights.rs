@@ -20,8 +20,8 @@ use super::super::gallery::Lamp;
 use super::super::punctual::PunctualUniform;
 use super::bsdf::disc;
 
-/// Most lights; the gallery has seven, and a model at most eight.
-pub(super) const MAX_LIGHTS: usize = 32;
+/// Most lights; the gallery has seven, a scenario two, and a model at most eight.
+pub(super) const MAX_LIGHTS: usize = 20;
 /// Probability with which a texel of the sky is chosen evenly instead of by its light, so that none is missed that
 /// rounding leaves dark.
 const EVENLY: f32 = 0.1;
@@ -31,11 +31,29 @@ pub(super) enum Light {
     /// A disc with a cone.
     Lamp(Lamp),
     /// A one-sided rectangle.
-    Rectangle(AreaLight),
+    Rectangle(Rectangle),
     /// A light without a size.
     Punctual(PunctualUniform),
     /// The light from all around.
     Sky(Sky),
+}
+
+/// A one-sided rectangle.
+pub(super) struct Rectangle {
+    /// Centre, sides and radiance.
+    pub of: AreaLight,
+    /// Unit, the side to which it shines.
+    normal: Vec3,
+    /// m².
+    pub area: f32,
+}
+
+impl Rectangle {
+    /// The rectangle of an area light.
+    pub fn new(of: AreaLight) -> Self {
+        let side = of.half_width.cross(of.half_height);
+        Self { of, normal: side.normalize_or_zero(), area: 4.0 * side.length() }
+    }
 }
 
 /// A light as seen from a point.
@@ -63,19 +81,17 @@ impl Light {
                 let above = (to.dot(normal) + spread).clamp(0.0, 1.0);
                 lamp.intensity.element_sum() * lit * above / d2
             }
-            Self::Rectangle(of) => {
+            Self::Rectangle(Rectangle { of, normal: shines, area }) => {
                 let to = of.center - point;
-                let side = of.half_width.cross(of.half_height);
-                let size = side.length();
-                let height = -to.dot(side) / size;
+                let height = -to.dot(*shines);
                 let edges = of.half_width.dot(normal).abs() + of.half_height.dot(normal).abs();
                 let above = to.dot(normal) + edges;
                 if height <= 0.0 || above <= 0.0 {
                     return 0.0;
                 }
                 // At least the rectangle's own size away, so that near points are not preferred without bound.
-                let d2 = to.length_squared() + size;
-                of.radiance.element_sum() * 4.0 * size * height * above / (d2 * d2)
+                let d2 = to.length_squared() + 0.25 * area;
+                of.radiance.element_sum() * area * height * above / (d2 * d2)
             }
             Self::Punctual(light) => match punctual(light, point) {
                 Some((to, _, strength)) => light.color.element_sum() * strength * to.dot(normal).max(0.0),
@@ -103,11 +119,11 @@ impl Light {
                     density: Some(d2 / (PI * lamp.radius * lamp.radius * cosine)),
                 })
             }
-            Self::Rectangle(of) => {
+            Self::Rectangle(Rectangle { of, normal, area }) => {
                 let to = of.center + of.half_width * (2.0 * u - 1.0) + of.half_height * (2.0 * v - 1.0) - point;
-                let (d2, side) = (to.length_squared(), 4.0 * of.half_width.cross(of.half_height));
+                let d2 = to.length_squared();
                 let direction = to / d2.sqrt();
-                let seen = -direction.dot(side);
+                let seen = -direction.dot(*normal) * area;
                 (seen > 0.0 && d2 > 0.0).then(|| Sample {
                     direction,
                     distance: d2.sqrt(),
@@ -147,16 +163,15 @@ impl Light {
                 (off.length_squared() < lamp.radius * lamp.radius && lit > 0.0)
                     .then(|| (lamp.intensity * (lit / (area * cosine)), 1.0 / (area * cosine), t))
             }
-            Self::Rectangle(of) => {
-                let side = of.half_width.cross(of.half_height);
-                let seen = -direction.dot(side);
-                let t = -(of.center - origin).dot(side) / seen;
+            Self::Rectangle(Rectangle { of, normal, area }) => {
+                let seen = -direction.dot(*normal);
+                let t = -(of.center - origin).dot(*normal) / seen;
                 if !(seen > 0.0 && t > 0.0 && t < far) {
                     return None;
                 }
                 let off = origin + direction * t - of.center;
                 let inside = |half: Vec3| off.dot(half).abs() <= half.length_squared();
-                (inside(of.half_width) && inside(of.half_height)).then(|| (of.radiance, 1.0 / (4.0 * seen), t))
+                (inside(of.half_width) && inside(of.half_height)).then(|| (of.radiance, 1.0 / (area * seen), t))
             }
             Self::Punctual(_) | Self::Sky(_) => None,
         }

@@ -48,7 +48,7 @@ use super::vertex::Vertex;
 use super::wires::Lines;
 use super::{FrameInput, Lighting, RenderError};
 use bsdf::AlbedoTable;
-use lights::{Light, MAX_LIGHTS, Sky};
+use lights::{Light, MAX_LIGHTS, Rectangle, Sky};
 use material::Materials;
 use path::Stage;
 use rod::Rod;
@@ -110,10 +110,10 @@ impl<'a> Reference<'a> {
             sky = Some(0);
             lights.push(Light::Sky(Sky::new(environment, lighting.env_intensity)));
         } else {
-            lights.extend(walls::fields(&gallery).into_iter().map(Light::Rectangle));
+            lights.extend(walls::fields(&gallery).into_iter().map(|field| Light::Rectangle(Rectangle::new(field))));
             lights.extend(gallery.lamps.map(Light::Lamp));
         }
-        lights.extend(lighting.area_light.map(Light::Rectangle));
+        lights.extend(lighting.area_light.map(|area| Light::Rectangle(Rectangle::new(area))));
         Ok(Self {
             exhibit,
             lighting: lighting.clone(),

@@ -18,7 +18,7 @@ use glam::Vec3;
 use super::super::gallery::Gallery;
 use super::super::scene::SurfaceKind;
 use super::bsdf::{AlbedoTable, Bsdf};
-use super::lights::{Light, MAX_LIGHTS};
+use super::lights::{Light, MAX_LIGHTS, Rectangle};
 use super::sequence::Sequence;
 use super::walls;
 use super::world::{World, leave};
@@ -167,8 +167,8 @@ impl Stage<'_> {
             let point = origin + direction * wall.distance;
             let mut glow = Vec3::ZERO;
             for field in wall.fields(gallery) {
-                let Light::Rectangle(of) = &self.lights[field] else { continue };
-                let seen = 4.0 * of.half_width.cross(of.half_height).length() * view.dot(wall.normal);
+                let Light::Rectangle(Rectangle { of, area, .. }) = &self.lights[field] else { continue };
+                let seen = area * view.dot(wall.normal);
                 let weight = |last: &Vertex| last.weight(field, last.position.distance_squared(point) / seen);
                 glow += of.radiance * last.map_or(1.0, weight);
             }

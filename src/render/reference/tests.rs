@@ -12,7 +12,7 @@ use super::super::scene::Scene;
 use super::super::scene::tests::of_primitive;
 use super::super::{AreaLight, FrameInput, ImageRenderer, Lighting, flip};
 use super::bsdf::AlbedoTable;
-use super::lights::{Light, Sky};
+use super::lights::{Light, Rectangle, Sky};
 use super::material::Materials;
 use super::path::Stage;
 use super::sequence::Sobol;
@@ -105,7 +105,7 @@ fn a_rectangle_lights_a_floor_by_its_form_factor() {
     let AreaLight { center: c, half_width: x, half_height: y, .. } = area;
     let factor = polygon_factor(&[c - x - y, c + x - y, c + x + y, c - x + y], Vec3::ZERO, Vec3::Y);
     let ray = (Vec3::new(-0.5, 0.5, 0.0), Vec3::new(1.0, -1.0, 0.0));
-    let seen = mean(floor(), matte(0.6), &[Light::Rectangle(area)], ray, 4096);
+    let seen = mean(floor(), matte(0.6), &[Light::Rectangle(Rectangle::new(area))], ray, 4096);
     let exact = area.radiance * (0.6 * factor);
     assert!(((seen - exact) / exact).abs().max_element() < NOISE, "{seen} instead of {exact}");
 }
@@ -186,7 +186,8 @@ fn the_empty_gallery_agrees_with_its_radiosity() {
     const PATCHES: f32 = 0.015;
     let exhibit = Exhibit::from_model(Default::default());
     let gallery = Gallery::around(&exhibit);
-    let mut lights: Vec<Light> = walls::fields(&gallery).into_iter().map(Light::Rectangle).collect();
+    let mut lights: Vec<Light> =
+        walls::fields(&gallery).into_iter().map(|f| Light::Rectangle(Rectangle::new(f))).collect();
     lights.extend(gallery.lamps.map(Light::Lamp));
     let materials = Materials::new(&exhibit.model);
     let stage = Stage {
