@@ -4,6 +4,8 @@
 //! Wrapping, transform and set of coordinates are those of the file. Colours are decoded from sRGB before they are
 //! interpolated, as graphics devices do.
 
+use std::sync::Arc;
+
 use glam::{Vec2, Vec4};
 
 use super::super::textures::{ColorSpace, to_linear};
@@ -11,7 +13,7 @@ use soffio_exhibit::model::{Image, TextureUse, Wrap};
 
 /// The images of a model, with the decoding tables of their codes.
 pub(super) struct Textures<'a> {
-    images: &'a [Image],
+    images: &'a [Arc<Image>],
     /// Value of each code: colours, then numbers.
     decode: [[f32; 256]; 2],
 }
@@ -43,7 +45,7 @@ impl Map {
 
 impl<'a> Textures<'a> {
     /// The textures of these images.
-    pub fn new(images: &'a [Image]) -> Self {
+    pub fn new(images: &'a [Arc<Image>]) -> Self {
         let number = std::array::from_fn(|code| code as f32 / 255.0);
         Self { images, decode: [number.map(to_linear), number] }
     }
@@ -100,7 +102,7 @@ mod tests {
     fn texels_are_blended_wrapped_and_decoded() {
         // Single precision of numbers up to one.
         const ROUNDING: f32 = 1e-6;
-        let images = [Image { width: 2, height: 1, rgba: vec![0, 0, 0, 255, 255, 188, 0, 51] }];
+        let images = [Arc::new(Image { width: 2, height: 1, rgba: vec![0, 0, 0, 255, 255, 188, 0, 51] })];
         let textures = Textures::new(&images);
         let read = |u: f32, wrap: Wrap, smooth_near: bool, space: ColorSpace| {
             let sampler = Sampler { wrap: [wrap; 2], smooth_near, ..Sampler::default() };
