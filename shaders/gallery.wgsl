@@ -10,6 +10,8 @@ const FLOOR_ROUGHNESS: f32 = 0.42;
 // Width of a board and of the groove between two, m.
 const BOARD: f32 = 0.14;
 const GROOVE: f32 = 0.002;
+// Contrast of the grain of each size.
+const GRAIN: f32 = 0.16;
 // Height of the shadow gap at the foot of the wall, in half heights of the gallery.
 const GAP: f32 = 0.004;
 
@@ -110,6 +112,25 @@ fn boards(across: f32, pixel: f32) -> f32 {
     return tone * (1.0 - 0.28 * covered);
 }
 
+// Grain of the boards, 1 on average: smooth noise of cells long along the board and narrow across, in two sizes; each fades
+// where a pixel is as wide as its cells. Every board has its own.
+fn grain(across: f32, along: f32, pixel: f32) -> f32 {
+    let board = floor(across / BOARD);
+    var sum = 1.0;
+    // A loop, so that software Vulkan skips it on the other faces.
+    for (var k = 0u; k < 2u; k++) {
+        let cell = select(vec2f(0.0031, 0.17), vec2f(0.0113, 0.43), k == 1u);
+        let at = vec2f(across, along + 3.7 * board) / cell + 65536.0;
+        let low = floor(at);
+        let f = at - low;
+        let s = f * f * (3.0 - 2.0 * f);
+        let near = mix(pixel_noise(low), pixel_noise(low + vec2f(1.0, 0.0)), s.x);
+        let far = mix(pixel_noise(low + vec2f(0.0, 1.0)), pixel_noise(low + vec2f(1.0, 1.0)), s.x);
+        sum += GRAIN * mix(near, far, s.y) * clamp(2.0 - 2.0 * pixel / cell.x, 0.0, 1.0);
+    }
+    return sum;
+}
+
 fn board_tone(board: f32) -> f32 {
     return 1.0 + 0.07 * pixel_noise(vec2f(board + 4096.0, 77.0));
 }
@@ -172,7 +193,8 @@ fn fragment(v: Varying) -> @location(0) vec4f {
     if v.face == FLOOR {
         let pixel = globals.pixel_angle * length(globals.eye - v.position);
         let gloss = floor_gloss(v.position, normal);
-        radiance *= boards(v.local.x * globals.gallery_half.x, pixel) * gloss.a;
+        let across = v.local.x * globals.gallery_half.x;
+        radiance *= boards(across, pixel) * grain(across, v.local.z * globals.gallery_half.z, pixel) * gloss.a;
         radiance += gloss.rgb * open;
     }
     if v.face != FLOOR {

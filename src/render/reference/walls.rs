@@ -12,6 +12,8 @@ use super::bsdf::{AlbedoTable, Bsdf};
 
 /// Perceptual roughness of the floor's varnish.
 const FLOOR_ROUGHNESS: f32 = 0.42;
+/// Contrast of the grain of each size.
+const GRAIN: f32 = 0.16;
 /// Width of a board, m.
 const BOARD: f32 = 0.14;
 /// Width of the groove between two boards, m.
@@ -94,7 +96,7 @@ impl WallHit {
     /// Reflection towards `view` (unit); the floor has its varnish where there is a table for it.
     pub fn bsdf(&self, view: Vec3, half_height: f32, table: Option<&AlbedoTable>) -> Bsdf {
         let albedo = match self.face {
-            Face::Floor => FLOOR_ALBEDO * boards(self.local.x),
+            Face::Floor => FLOOR_ALBEDO * boards(self.local.x) * grain(self.local.x, self.local.z),
             face => reflectance(face, self.at) * self.shade(half_height),
         };
         match table {
@@ -117,6 +119,22 @@ fn boards(across: f32) -> f32 {
     let x = across / BOARD;
     let groove = if (x - x.round()).abs() < 0.5 * GROOVE / BOARD { 1.0 - GROOVE_SHADE } else { 1.0 };
     groove * (1.0 + BOARD_CONTRAST * pixel_noise(x.floor() + 4096.0, 77.0))
+}
+
+/// Grain of the boards at a place across and along them, m, as in `gallery.wgsl`; 1 on average.
+fn grain(across: f32, along: f32) -> f32 {
+    let board = (across / BOARD).floor();
+    let of = |cell: Vec2| {
+        let at = Vec2::new(across, along + 3.7 * board) / cell + 65536.0;
+        let low = at.floor();
+        let f = at - low;
+        let s = f * f * (3.0 - 2.0 * f);
+        let noise = |x: f32, y: f32| pixel_noise(low.x + x, low.y + y);
+        let near = noise(0.0, 0.0) + (noise(1.0, 0.0) - noise(0.0, 0.0)) * s.x;
+        let far = noise(0.0, 1.0) + (noise(1.0, 1.0) - noise(0.0, 1.0)) * s.x;
+        GRAIN * (near + (far - near) * s.y)
+    };
+    1.0 + of(Vec2::new(0.0031, 0.17)) + of(Vec2::new(0.0113, 0.43))
 }
 
 /// Noise of a pixel, −½ … ½, as in `common.wgsl` (PCG, Jarzynski 2020).
