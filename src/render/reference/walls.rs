@@ -162,6 +162,7 @@ mod tests {
             ("FLOOR_ROUGHNESS: f32 = ", FLOOR_ROUGHNESS),
             ("BOARD: f32 = ", BOARD),
             ("GROOVE: f32 = ", GROOVE),
+            ("GRAIN: f32 = ", GRAIN),
             ("GAP: f32 = ", GAP),
             ("tone * (1.0 - ", GROOVE_SHADE),
             ("return 1.0 + ", BOARD_CONTRAST),
