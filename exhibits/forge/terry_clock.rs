@@ -32,7 +32,7 @@ use super::terry_layout::{
     toward, wheel,
 };
 use super::{terry_case, terry_strike};
-use soffio_authoring::glb::Scene;
+use soffio_authoring::glb::{Finish, Scene};
 use soffio_authoring::outline::{Polygon, ellipse};
 use soffio_authoring::piece::{Part, Piece};
 use soffio_authoring::solid::{Solid, extrude, revolve};
@@ -384,11 +384,18 @@ fn frame(finishes: &Finishes, pivot: DVec3) -> Piece {
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
+    // Terry's wheels are of cherry, his plates of oak. Here one train is of beech, so that both can be told apart.
+    let mut wood = |name, color, finish| {
+        let finish = Finish { name, color, metallic: 0.0, roughness: 0.5, finish: Some(finish) };
+        Finishes { wood: scene.finish(&finish), ..finishes }
+    };
+    let of_plates = wood("Oak", [0.17, 0.09, 0.042], "oak");
+    let of_striking = wood("Cherry", [0.31, 0.115, 0.05], "walnut");
     let [.., arbor] = places();
     let pivot = arbor + DVec3::Z * SWING;
     let hangs = DVec3::new(-0.125, 0.36, -10.0 * MM);
     let [case, dial] = terry_case::pieces(&mut scene, &finishes, [hangs, terry_strike::weight_at()]);
-    let mut pieces: Vec<Placed> = [frame(&finishes, pivot), case, dial].map(|still| (still, at(DVec3::ZERO))).into();
+    let mut pieces: Vec<Placed> = [frame(&of_plates, pivot), case, dial].map(|still| (still, at(DVec3::ZERO))).into();
     pieces.extend(going_train(&finishes));
     pieces.push((anchor(&finishes), at(pivot)));
     pieces.push((pendulum(&finishes, LENGTH, true), at(pivot)));
@@ -399,7 +406,7 @@ pub fn glb() -> Vec<u8> {
     let at_home =
         Part { place: Pose { rotation: bell.place.rotation, position: DVec3::ZERO }, name: "BellCup", ..bell };
     pieces.push((piece("Bell", vec![at_home]), hanging));
-    pieces.extend(terry_strike::pieces(&finishes, HOURS));
+    pieces.extend(terry_strike::pieces(&of_striking, HOURS));
     for (piece, pose) in &pieces {
         piece.write(&mut scene, *pose);
     }
