@@ -8,6 +8,7 @@ use super::bodies::{Body, Cord, Material, MaterialPair, Wire};
 use super::chart::Chart;
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
+use super::light::LightRig;
 use super::model::Model;
 use super::paths::SIDECAR;
 use super::presentation::{Attract, Credit, Labels, TAKE};
@@ -23,7 +24,7 @@ use soffio_wind::{Shelter, Surface};
 
 /// A validated exhibit. Immutable: hot reload builds a new one.
 ///
-/// It has 41 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
+/// It has 42 fields: about one for each table of `exhibit.toml` and each key of its `[scene]`, with names resolved. It
 /// has no state.
 #[derive(Clone, Debug)]
 pub struct Exhibit {
@@ -33,6 +34,8 @@ pub struct Exhibit {
     pub folder: PathBuf,
     /// The glTF model.
     pub model: Model,
+    /// The gallery's light on it.
+    pub light: LightRig,
     /// Acceleration of gravity, world, m/s².
     pub gravity: DVec3,
     /// glTF node of the camera; `None` frames the bounds of the exhibit.

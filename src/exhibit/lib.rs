@@ -40,6 +40,7 @@ mod exhibit;
 pub mod finish;
 pub mod fit;
 pub mod labels;
+mod light;
 pub mod materials;
 pub mod model;
 pub mod own_timbres;
@@ -63,6 +64,7 @@ pub use behavior::{
 pub use bodies::{Body, Cord, Material, MaterialPair, Wire};
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};
+pub use light::{LightRig, Side};
 pub use model::Model;
 pub use paths::{SIDECAR, exhibits_folder, ids, resolve};
 pub use presentation::{Attract, AttractAction, AttractStep, Credit, Label, Labels};

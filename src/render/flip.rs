@@ -254,7 +254,7 @@ mod tests {
     fn a_fine_pattern_differs_less_than_the_grey_of_its_own_light_than_a_coarse_one() {
         let stripes = |width: u32| {
             RgbaImage::from_fn(64, 64, |x, _| {
-                let c = if x / width % 2 == 0 { 148 } else { 220 };
+                let c = if (x / width).is_multiple_of(2) { 148 } else { 220 };
                 image::Rgba([c, c, c, 255])
             })
         };

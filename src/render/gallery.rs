@@ -8,14 +8,14 @@
 //! - reflections between the walls, which `radiosity` computes.
 //!
 //! The same functions bake the gallery's light map and give the radiance that the exhibit reflects, so a mirror shows
-//! the gallery. Radiances are relative: at exposure 1 the wall behind the exhibit has two fifths of white, so that white paint
-//! on the exhibit is the brightest thing in the picture.
+//! the gallery. Radiances are relative: at exposure 1 the wall behind the exhibit has two fifths of white, unless `[light]` of its
+//! sidecar says otherwise, so that white paint on the exhibit is the brightest thing in the picture.
 
 use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use soffio_exhibit::Exhibit;
+use soffio_exhibit::{Exhibit, LightRig, Side};
 
 /// Inner faces of the gallery, in the order of the light map's layers and of `gallery.wgsl`.
 pub const FACES: [Face; 6] = [Face::Wall, Face::Floor, Face::Ceiling, Face::Left, Face::Right, Face::Back];
@@ -27,12 +27,9 @@ pub const FLOOR_ALBEDO: Vec3 = Vec3::new(0.37, 0.315, 0.25);
 const SOFTBOX: Vec3 = Vec3::new(3.6, 3.5, 3.3);
 /// Radiance of the window, linear RGB, relative to exposure 1: chosen by eye, cooler than the softboxes.
 const WINDOW: Vec3 = Vec3::new(2.6, 2.9, 3.3);
-/// Radiance of the wall behind the exhibit by the fields and reflections, relative to exposure 1. With the lamps
-/// it makes about two fifths of white.
-pub const WALL_AMBIENT: f32 = 0.11;
-/// Radiance that the lamps add there, relative to exposure 1, the key lamp's first: a ratio of 4 : 1, usual for sculpture,
-/// that models form and keeps the fill's shadow visible.
-const WALL_LAMPS: [f32; 2] = [0.26, 0.065];
+/// Fraction of the wall's radiance behind the exhibit that fields and reflections make; the lamps add the rest. Chosen by eye:
+/// with more the shadows fade, with less they are black.
+const AMBIENT_SHARE: f32 = 0.25;
 /// Colour of the key lamp, warm, and of the fill lamp, cool, linear RGB: as halogen beside daylight, chosen by eye.
 const LAMP_COLORS: [Vec3; 2] = [Vec3::new(1.05, 1.0, 0.92), Vec3::new(0.94, 1.0, 1.08)];
 
@@ -165,6 +162,8 @@ pub struct Gallery {
     /// The two lamps; the first is the key.
     pub lamps: [Lamp; 2],
     pub(super) fields: Vec<Field>,
+    /// Radiance of the wall behind the exhibit by fields and reflections, relative to exposure 1.
+    pub wall_ambient: f32,
     /// Irradiance of the faces without the direct light of the lamps, face by face, row by row.
     pub(super) lightmap: Vec<Vec3>,
 }
@@ -210,18 +209,23 @@ impl Gallery {
                 cos_outer: 0.0,
             }; 2],
             fields: fields(),
+            wall_ambient: AMBIENT_SHARE * exhibit.light.wall as f32,
             lightmap: Vec::new(),
         };
-        gallery.lamps = gallery.place_lamps(behind);
+        gallery.lamps = gallery.place_lamps(behind, &exhibit.light);
         gallery.solve_radiosity();
         gallery
     }
 
-    /// Key lamp from the upper left, fill lamp from the upper right; both light the exhibit and the wall around it.
-    fn place_lamps(&self, behind: f32) -> [Lamp; 2] {
+    /// Key lamp from one side above, fill lamp from the other; both light the exhibit and the wall around it.
+    fn place_lamps(&self, behind: f32, rig: &LightRig) -> [Lamp; 2] {
         let r = self.radius;
+        let side = if rig.side == Side::Left { 1.0 } else { -1.0 };
+        let (lamps, ratio) = ((1.0 - AMBIENT_SHARE) * rig.wall as f32, rig.key_to_fill as f32);
+        let (key, fill) = (lamps * ratio / (ratio + 1.0), lamps / (ratio + 1.0));
         let place = |offset: Vec3, disc: f32, color: Vec3, radiance: f32| {
-            let position = self.exhibit_center + (self.x * offset.x + Vec3::Y * offset.y + self.z * offset.z) * r;
+            let position =
+                self.exhibit_center + (self.x * (side * offset.x) + Vec3::Y * offset.y + self.z * offset.z) * r;
             let aim = self.exhibit_center - self.z * behind * 0.5;
             let axis = (aim - position).normalize();
             let foot = self.exhibit_center - self.z * behind;
@@ -238,8 +242,8 @@ impl Gallery {
             }
         };
         [
-            place(Vec3::new(-1.5, 2.0, 4.7), 0.085, LAMP_COLORS[0], WALL_LAMPS[0]),
-            place(Vec3::new(2.0, 2.1, 4.4), 0.16, LAMP_COLORS[1], WALL_LAMPS[1]),
+            place(Vec3::new(-1.5, 2.0, 4.7), 0.085, LAMP_COLORS[0], key),
+            place(Vec3::new(2.0, 2.1, 4.4), 0.16, LAMP_COLORS[1], fill),
         ]
     }
 

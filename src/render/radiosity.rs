@@ -11,7 +11,7 @@ use std::f32::consts::PI;
 
 use glam::{Vec2, Vec3};
 
-use super::gallery::{FACES, Face, Field, Gallery, WALL_ALBEDO, WALL_AMBIENT, reflectance};
+use super::gallery::{FACES, Face, Field, Gallery, WALL_ALBEDO, reflectance};
 use super::occlusion::in_parallel;
 
 /// Texels along each side of a light map layer; its light has no sharper edges.
@@ -71,7 +71,7 @@ impl Gallery {
         let by_fields =
             level(reflected_irradiance(&patches, &of_fields, foot, Vec3::Z) + self.direct_irradiance(foot, Vec3::Z));
         // In a very small gallery the lamps' reflections may already suffice; a little window light always stays.
-        let gain = ((WALL_AMBIENT - by_lamps) / by_fields).max(0.1 * WALL_AMBIENT / by_fields);
+        let gain = (self.wall_ambient - by_lamps).max(0.1 * self.wall_ambient) / by_fields;
         for field in &mut self.fields {
             field.radiance *= gain;
         }
@@ -295,7 +295,7 @@ mod tests {
             let e = gallery.field_irradiance(Face::Wall, Vec2::new(w.dot(gallery.x), y) / gallery.half.truncate());
             (WALL_ALBEDO / PI * e).element_sum() / 3.0
         };
-        assert!((level(w.y) / WALL_AMBIENT - 1.0).abs() < TOLERANCE, "{}", level(w.y));
+        assert!((level(w.y) / gallery.wall_ambient - 1.0).abs() < TOLERANCE, "{}", level(w.y));
         assert!(level(-gallery.half.y * 0.99) < level(w.y), "the floor is darker than the walls");
         // The view from the exhibit straight at that point shows the same radiance.
         let seen = gallery.radiance(-gallery.z);

@@ -13,6 +13,7 @@ mod cords;
 mod finishes;
 mod joints;
 mod kinds;
+mod lights;
 mod materials;
 mod motion;
 mod nail_paths;
@@ -119,6 +120,7 @@ fn empty(model: Model, folder: PathBuf) -> Exhibit {
         folder,
         shapes: shapes(&model, |_| None),
         model,
+        light: LightRig::DEFAULT,
         gravity: GRAVITY,
         camera_node: None,
         materials: Vec::new(),
@@ -239,8 +241,10 @@ impl Context<'_> {
         let clock = self.clock(&constraints);
         let labels = self.labels();
         let attract = self.attract(&labels);
+        let light = self.light();
         Exhibit {
             id,
+            light,
             gravity,
             camera_node,
             materials: std::mem::take(&mut self.materials),

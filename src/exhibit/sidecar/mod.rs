@@ -22,6 +22,7 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::light::Side;
 use super::quantity::*;
 
 pub use bodies::*;
@@ -92,6 +93,9 @@ pub struct Sidecar {
     /// Surfaces on which wind acts.
     #[serde(default)]
     pub wind_surface: Vec<WindSurface>,
+    /// The gallery's light on the exhibit.
+    #[serde(default)]
+    pub light: Light,
     /// How a breath acts on the exhibit, and winds of its own.
     #[serde(default)]
     pub wind: Winds,
@@ -130,6 +134,18 @@ pub struct Scene {
     pub duration: Option<Until>,
     /// Does it play an assembly animation when it is shown? By default true.
     pub assembly_animation: Option<bool>,
+}
+
+/// The gallery's light on the exhibit.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Light {
+    /// Side of the key lamp as the visitor sees it; by default "left".
+    pub side: Side,
+    /// Brightness of the wall behind the exhibit, where white is 1: 0.1 to 0.8, by default 0.435.
+    pub wall: Option<f64>,
+    /// How many times as strong as the fill lamp the key lamp is: 1 to 20, by default 4.
+    pub key_to_fill: Option<f64>,
 }
 
 /// How motion is computed.

@@ -14,7 +14,7 @@ use super::export_model::ExportModel;
 use soffio_exhibit::model::{Appearance, LightKind, Primitive};
 use soffio_exhibit::{Exhibit, View};
 use soffio_math::{DMat4, DVec3, PI, Pose, acos};
-use soffio_render::gallery::{FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO, WALL_AMBIENT};
+use soffio_render::gallery::{FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO};
 
 /// Fraction of a frame in which the shutter is open.
 const SHUTTER: f64 = 0.5;
@@ -201,7 +201,7 @@ fn surface(look: &Appearance) -> String {
 
 /// The gallery: ambient light, its two lamps, its walls.
 fn gallery(gallery: &Gallery, view: &View) -> String {
-    let ambient = WALL_AMBIENT / WALL_ALBEDO.y;
+    let ambient = gallery.wall_ambient / WALL_ALBEDO.y;
     let mut out = format!("  LightSource \"ambientlight\" 1 \"intensity\" [{ambient}]\n");
     let vector = |v: glam::Vec3| list(v.as_dvec3().to_array());
     for (handle, lamp) in (2..).zip(&gallery.lamps) {

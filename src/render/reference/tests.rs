@@ -3,10 +3,10 @@
 use std::f32::consts::PI;
 use std::path::Path;
 
-use glam::{DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 
 use super::super::bounce::tests::hollow_cube;
-use super::super::gallery::{FACES, FLOOR_ALBEDO, Face, Gallery, Lamp, WALL_ALBEDO};
+use super::super::gallery::{Gallery, Lamp, WALL_ALBEDO};
 use super::super::radiosity::polygon_factor;
 use super::super::scene::Scene;
 use super::super::scene::tests::of_primitive;
@@ -19,7 +19,7 @@ use super::sequence::Sobol;
 use super::world::World;
 use super::{Environment, Reference, Settings, walls};
 use soffio_exhibit::model::{Appearance, Primitive};
-use soffio_exhibit::{Exhibit, View};
+use soffio_exhibit::Exhibit;
 
 /// Paint without gloss.
 fn matte(grey: f32) -> Appearance {
