@@ -14,8 +14,8 @@ use super::nodes::{fit, meshes, sidecar_name, toml_vector, world_meshes};
 use super::texts::{AttractBreath, attract, in_three_languages, labels, quoted};
 use super::{ExhibitFolder, FolderFile};
 use soffio_exhibit::diagnostic::{Diagnostic, Report};
-use soffio_exhibit::model::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, Model, import};
-use soffio_exhibit::{SIDECAR, codes, materials, paths};
+use soffio_exhibit::model::{Imported, MAX_FILE_BYTES, Model, import};
+use soffio_exhibit::{SIDECAR, materials, paths};
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 
@@ -33,9 +33,8 @@ const SHEET_THICKNESS: f64 = 1e-3;
 /// # Errors
 /// Problems of the model, and referenced files that cannot be read.
 pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
-    let Imported { model, warnings } = import(path)?;
+    let Imported { model, warnings, document: json } = import(path)?;
     let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
-    let json = document(&bytes).map_err(Report::single)?;
     let binary = bytes.starts_with(b"glTF");
     let name = format!("{id}.{}", if binary { "glb" } else { "gltf" });
     let mut made = ExhibitFolder { files: referenced_files(path, &json).map_err(Report::single)?, remarks: Vec::new() };
@@ -46,25 +45,14 @@ pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
     Ok(made)
 }
 
-/// The JSON of a glTF file.
-fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
-    let broken = |error: &dyn std::fmt::Display| {
-        Diagnostic::new(codes::BROKEN_MODEL, format!("the model's JSON cannot be read: {error}")).help(EXPORT_AGAIN)
-    };
-    if bytes.starts_with(b"glTF") {
-        let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| broken(&error))?;
-        return serde_json::from_slice(&glb.json).map_err(|error| broken(&error));
-    }
-    serde_json::from_slice(bytes).map_err(|error| broken(&error))
-}
-
 /// Buffers and images that the model references, by their paths in the file.
 fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagnostic> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut files: Vec<FolderFile> = Vec::new();
     for kind in ["buffers", "images"] {
         for uri in json[kind].as_array().into_iter().flatten().filter_map(|entry| entry["uri"].as_str()) {
-            if uri.starts_with("data:") {
+            // Data lies in the file; addresses are not opened.
+            if uri.starts_with("data:") || uri.contains("://") {
                 continue;
             }
             let name = paths::percent_decoded(uri);
