@@ -10,7 +10,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::khr;
-use super::nodes::{fit, meshes, sidecar_name, toml_vector, world_meshes};
+use super::nodes::{Names, fit, meshes, toml_vector, world_meshes};
 use super::texts::{AttractBreath, attract, in_three_languages, labels, quoted};
 use super::{ExhibitFolder, FolderFile};
 use soffio_exhibit::diagnostic::{Diagnostic, Report};
@@ -24,6 +24,8 @@ const STATIC_WORDS: [&str; 14] = [
     "stand", "base", "floor", "ground", "wall", "room", "frame", "ceiling", "post", "plinth", "foot", "table", "case",
     "support",
 ];
+/// Most objects for which bodies are proposed: more than a kiosk moves in real time. Each is compared with every other.
+const MAX_PROPOSED: usize = 256;
 /// Proposed material, and thickness of its sheet, m.
 const MATERIAL: &str = "aluminium";
 const SHEET_THICKNESS: f64 = 1e-3;
@@ -66,6 +68,7 @@ fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagno
 }
 
 fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<String>) -> String {
+    let names = Names::new(model);
     let physics = khr::physics(model, json);
     let mut out = format!(
         "# Made by `soffio import`: a proposal. Check bodies and joints, and REPLACE the texts.\n\
@@ -75,7 +78,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     );
     let camera = model.nodes.iter().position(|node| node.camera.is_some());
     match camera {
-        Some(node) => _ = writeln!(out, "camera = {}", quoted(&sidecar_name(model, node))),
+        Some(node) => _ = writeln!(out, "camera = {}", quoted(&names.of(node))),
         None => out.push_str("# The model has no camera: its bounds are framed. camera = \"NodeName\" uses one.\n"),
     }
     out.push_str("# Level of all sounds: `soffio loudness --write` makes exhibits equally loud.\nlevel = \"0 dB\"\n\n");
@@ -95,11 +98,11 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
             remarks.extend(physics.remarks);
             physics.moving
         }
-        None => propose_bodies(&mut out, model, remarks),
+        None => propose_bodies(&mut out, model, &names, remarks),
     };
     let seen: Vec<usize> = moving.iter().copied().filter(|&node| !meshes(model, node).is_empty()).collect();
     for (seed, node) in (1..).zip(&seen) {
-        let name = quoted(&sidecar_name(model, *node));
+        let name = quoted(&names.of(*node));
         let _ = write!(
             out,
             "[[wind_surface]]\nnode = {name}\nsampling = {{ per_area = \"4000 /m2\", min = 16, max = 64, seed = {seed} }}\n\n"
@@ -107,7 +110,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     }
     let mut captions = Vec::new();
     if let Some(node) = seen.first() {
-        let name = quoted(&sidecar_name(model, *node));
+        let name = quoted(&names.of(*node));
         let _ = write!(
             out,
             "# `soffio sound --list` names the timbres; on = \"impact\" plays at impacts on a body.\n\
@@ -139,7 +142,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
 }
 
 /// Proposes bodies for a model without physics; returns the moving nodes.
-fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<usize> {
+fn propose_bodies(out: &mut String, model: &Model, names: &Names, remarks: &mut Vec<String>) -> Vec<usize> {
     out.push_str(
         "# ---- bodies, as proposed --------------------------------------------------------------------------------------\n\
          # A body moves as one with the nodes below it. Each hangs on a nail above its centre: put the nail where the object\n\
@@ -152,10 +155,16 @@ fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) ->
     {
         objects = model.nodes[only].children.clone();
     }
+    if objects.len() > MAX_PROPOSED {
+        let count = objects.len();
+        remarks
+            .push(format!("{count} objects: bodies are proposed for the first {MAX_PROPOSED}, the others are fixed"));
+        objects.truncate(MAX_PROPOSED);
+    }
     let boxes: Vec<(DVec3, DVec3)> = objects.iter().map(|&node| bounds(&world_meshes(model, node))).collect();
     let mut moving = Vec::new();
     for (i, &node) in objects.iter().enumerate() {
-        let (name, solids) = (sidecar_name(model, node), world_meshes(model, node));
+        let (name, solids) = (names.of(node), world_meshes(model, node));
         if solids.is_empty() {
             continue;
         }

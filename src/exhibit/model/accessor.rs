@@ -21,7 +21,10 @@ fn place(accessor: &gltf::Accessor) -> String {
     format!("accessors[{}]", accessor.index())
 }
 
-/// Bytes of the view's element `index`, `size` bytes long.
+/// What a buffer without data is read as.
+const ZEROS: [u8; 64] = [0; 64];
+
+/// Bytes of the view's element `index`, `size` bytes long; zeros where its buffer has no data at all.
 fn element<'b>(buffers: &'b [Vec<u8>], view: &View, offset: usize, index: usize, size: usize) -> Option<&'b [u8]> {
     let stride = view.stride().unwrap_or(size);
     let inside = index.checked_mul(stride)?.checked_add(offset)?;
@@ -29,7 +32,10 @@ fn element<'b>(buffers: &'b [Vec<u8>], view: &View, offset: usize, index: usize,
         return None;
     }
     let start = view.offset().checked_add(inside)?;
-    buffers.get(view.buffer().index())?.get(start..start.checked_add(size)?)
+    match buffers.get(view.buffer().index())?.as_slice() {
+        [] => ZEROS.get(..size),
+        buffer => buffer.get(start..start.checked_add(size)?),
+    }
 }
 
 fn number(kind: DataType, bytes: &[u8], normalized: bool) -> f32 {
@@ -61,6 +67,12 @@ fn count_of(accessor: &gltf::Accessor, lane_bytes: usize) -> Result<usize, Model
         ));
     }
     Ok(count)
+}
+
+/// Has the accessor no data, so that it is all zeros?
+pub fn is_empty(accessor: &gltf::Accessor, buffers: &[Vec<u8>]) -> bool {
+    let missing = |view: View| buffers.get(view.buffer().index()).is_none_or(Vec::is_empty);
+    accessor.sparse().is_none() && accessor.view().is_none_or(missing)
 }
 
 /// The view's data is not in the file, although its lengths agree.
@@ -102,7 +114,7 @@ pub fn vectors<const LANES: usize>(
                 bytes.map(decode).ok_or_else(|| no_data(accessor, &view))
             })
             .collect::<Result<Vec<_>, _>>()?,
-        None => vec![decode(&[0; 64][..size.min(64)]); count],
+        None => vec![decode(&ZEROS[..size.min(64)]); count],
     };
     replace(accessor, buffers, size, |index, bytes| match out.get_mut(index) {
         Some(slot) => {
@@ -137,8 +149,8 @@ fn replace(
     for i in 0..sparse.count().min(accessor.count()) {
         let at = element(buffers, &indices.view(), indices.offset(), i, index_size)
             .ok_or_else(|| no_data(accessor, &indices.view()))?;
-        let value =
-            element(buffers, &values.view(), values.offset(), i, size).ok_or_else(|| no_data(accessor, &values.view()))?;
+        let value = element(buffers, &values.view(), values.offset(), i, size)
+            .ok_or_else(|| no_data(accessor, &values.view()))?;
         let index = unsigned(at);
         if !put(index as usize, value) {
             let what = format_args!("replaces element {index}, but the accessor has {}", accessor.count());
@@ -160,12 +172,20 @@ pub fn indices(accessor: &gltf::Accessor, buffers: &[Vec<u8>], vertices: usize) 
     let size = accessor.data_type().size();
     let unsigned_kind = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
     if accessor.dimensions() != Dimensions::Scalar || !unsigned_kind {
-        return Err(Fault::at(Cause::Format, place(accessor), "is used as indices and does not hold unsigned integers"));
+        return Err(Fault::at(
+            Cause::Format,
+            place(accessor),
+            "is used as indices and does not hold unsigned integers",
+        ));
     }
     let count = count_of(accessor, size_of::<u32>())?;
     let mut out: Vec<u32> = match accessor.view() {
         Some(view) => (0..count)
-            .map(|i| element(buffers, &view, accessor.offset(), i, size).map(unsigned).ok_or_else(|| no_data(accessor, &view)))
+            .map(|i| {
+                element(buffers, &view, accessor.offset(), i, size)
+                    .map(unsigned)
+                    .ok_or_else(|| no_data(accessor, &view))
+            })
             .collect::<Result<_, _>>()?,
         None => vec![0; count],
     };
@@ -177,7 +197,7 @@ pub fn indices(accessor: &gltf::Accessor, buffers: &[Vec<u8>], vertices: usize) 
         None => false,
     })?;
     let restart = u32::MAX >> (32 - 8 * size as u32);
-    match out.iter().position(|&index| index as usize >= vertices) {
+    match out.iter().position(|&index| index as usize >= vertices || index == restart) {
         Some(at) if out[at] == restart => {
             let what = format_args!("is {restart} at entry {at}: glTF has no restarting of strips");
             Err(Fault::at(Cause::Vertex, place(accessor), what))

@@ -32,6 +32,12 @@ pub fn check(document: &gltf::Document, buffers: &[Vec<u8>], faults: &mut Faults
                 }
             }
             influences(&primitive, buffers, &place, faults);
+            if let Some(indices) = primitive.indices() {
+                let vertices = primitive.get(&Semantic::Positions).map_or(usize::MAX, |positions| positions.count());
+                if let Err(fault) = accessor::indices(&indices, buffers, vertices) {
+                    faults.push(fault.within(format_args!("{place}.indices")));
+                }
+            }
         }
     }
     for skin in document.skins() {
@@ -49,12 +55,18 @@ pub fn check(document: &gltf::Document, buffers: &[Vec<u8>], faults: &mut Faults
             if channel.target().property() != gltf::animation::Property::Rotation {
                 continue;
             }
-            let Ok(values) = accessor::vectors::<4>(&sampler.output(), buffers, &[Dimensions::Vec4], 0.0) else { continue };
+            let Ok(values) = accessor::vectors::<4>(&sampler.output(), buffers, &[Dimensions::Vec4], 0.0) else {
+                continue;
+            };
             let cubic = sampler.interpolation() == gltf::animation::Interpolation::CubicSpline;
             let value = |i: &usize| !cubic || i % 3 == 1;
             if let Some(key) = (0..values.len()).filter(value).find(|&i| !is_unit(&values[i])) {
                 let place = format!("animations[{}].channels[{index}].sampler", animation.index());
-                faults.add(Cause::Harmless, place, format_args!("rotation {key} is not of length 1; it is scaled to it"));
+                faults.add(
+                    Cause::Harmless,
+                    place,
+                    format_args!("rotation {key} is not of length 1; it is scaled to it"),
+                );
             }
         }
     }
@@ -66,13 +78,7 @@ fn is_unit(v: &[f32]) -> bool {
 
 /// Numbers are finite, and least and greatest are those stated.
 fn bounds(accessor: &Accessor, buffers: &[Vec<u8>], faults: &mut Faults) {
-    let missing = |view: gltf::buffer::View| buffers[view.buffer().index()].is_empty();
-    if accessor.view().is_none() && accessor.sparse().is_none() {
-        return;
-    }
-    let sparse = accessor.sparse().is_some_and(|s| missing(s.indices().view()) || missing(s.values().view()));
-    if sparse || accessor.view().is_some_and(missing) {
-        // An error where something reads it.
+    if accessor::is_empty(accessor, buffers) {
         return;
     }
     let any = [
@@ -143,7 +149,7 @@ fn attribute(semantic: &Semantic, accessor: &Accessor, buffers: &[Vec<u8>], plac
         _ => None,
     };
     // Zeros without a view hold no data that could be wrong.
-    if let Some((vertex, what)) = wrong.filter(|_| accessor.view().is_some()) {
+    if let Some((vertex, what)) = wrong.filter(|_| !accessor::is_empty(accessor, buffers)) {
         faults.add(Cause::Harmless, place, format_args!("that of vertex {vertex} {what}"));
     }
 }
@@ -151,7 +157,13 @@ fn attribute(semantic: &Semantic, accessor: &Accessor, buffers: &[Vec<u8>], plac
 /// Weights are not negative and sum to 1; a vertex names a joint once.
 fn influences(primitive: &gltf::Primitive, buffers: &[Vec<u8>], place: &str, faults: &mut Faults) {
     let vectors = |accessor: Option<Accessor>| {
-        accessor::vectors::<4>(&accessor.filter(|a| a.view().is_some())?, buffers, &[Dimensions::Vec4], 0.0).ok()
+        accessor::vectors::<4>(
+            &accessor.filter(|a| !accessor::is_empty(a, buffers))?,
+            buffers,
+            &[Dimensions::Vec4],
+            0.0,
+        )
+        .ok()
     };
     let (mut joints, mut weights): (Vec<Vec<[f32; 4]>>, Vec<Vec<[f32; 4]>>) = (Vec::new(), Vec::new());
     for set in 0.. {
@@ -179,7 +191,11 @@ fn influences(primitive: &gltf::Primitive, buffers: &[Vec<u8>], place: &str, fau
         } else {
             continue;
         };
-        faults.add(Cause::Harmless, format_args!("{place}.attributes.WEIGHTS_0"), format_args!("that of vertex {vertex} {what}"));
+        faults.add(
+            Cause::Harmless,
+            format_args!("{place}.attributes.WEIGHTS_0"),
+            format_args!("that of vertex {vertex} {what}"),
+        );
         return;
     }
 }

@@ -81,7 +81,8 @@ pub fn bind(
     let joints = skin.joints().count();
     let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); out.positions.len()];
     skin_weights(source, all.len(), buffers, |corner, joint, share| {
-        let index = u16::try_from(joint).ok().filter(|_| joint < joints).ok_or_else(|| Fault::new(Cause::Joint, NO_JOINT))?;
+        let index =
+            u16::try_from(joint).ok().filter(|_| joint < joints).ok_or_else(|| Fault::new(Cause::Joint, NO_JOINT))?;
         all[corner].push((index, share));
         Ok(())
     })?;
@@ -135,7 +136,11 @@ fn differences(
 ) -> Result<Vec<[f32; 3]>, ModelError> {
     let Some(source) = source.filter(|_| count > 0) else { return Ok(Vec::new()) };
     let differences = accessor::vectors::<3>(&source, buffers, &[Vec3], 0.0)?;
-    if differences.len() == count { Ok(differences) } else { Err(Fault::new(Cause::Count, format_args!("{what} differ in number"))) }
+    if differences.len() == count {
+        Ok(differences)
+    } else {
+        Err(Fault::new(Cause::Count, format_args!("{what} differ in number")))
+    }
 }
 
 /// Adds weighted differences; the sign of a tangent stays.

@@ -76,12 +76,18 @@ fn chunks<'a>(bytes: &'a [u8], faults: &mut Faults) -> Result<Parts<'a>, Fault> 
     let (mut json, mut bin, mut at, mut index) = (None, None, HEADER, 0);
     while at < body.len() {
         let (Some(size), Some(kind)) = (word(body, at), word(body, at + 4)) else {
-            return Err(Fault::new(Cause::Container, format_args!("its length ends within the header of chunk {index}")));
+            return Err(Fault::new(
+                Cause::Container,
+                format_args!("its length ends within the header of chunk {index}"),
+            ));
         };
         let (start, size) = (at + CHUNK_HEADER, size as usize);
         let chunk = start.checked_add(size).and_then(|end| body.get(start..end)).ok_or_else(|| {
             let left = body.len() - start;
-            Fault::new(Cause::Container, format_args!("chunk {index} has {size} bytes by its header, {left} in the GLB"))
+            Fault::new(
+                Cause::Container,
+                format_args!("chunk {index} has {size} bytes by its header, {left} in the GLB"),
+            )
         })?;
         if size % 4 != 0 {
             faults.add(Cause::Harmless, "", format_args!("chunk {index} has {size} bytes, not a multiple of 4"));
@@ -93,7 +99,9 @@ fn chunks<'a>(bytes: &'a [u8], faults: &mut Faults) -> Result<Parts<'a>, Fault> 
                 return Err(Fault::new(Cause::Container, format_args!("chunk 0 is of type {kind:#010x}, not JSON")));
             }
             (1, BIN) => bin = Some(chunk),
-            (_, JSON) => return Err(Fault::new(Cause::Container, format_args!("chunk {index} is a second JSON chunk"))),
+            (_, JSON) => {
+                return Err(Fault::new(Cause::Container, format_args!("chunk {index} is a second JSON chunk")));
+            }
             (_, BIN) if bin.is_some() => {
                 return Err(Fault::new(Cause::Container, format_args!("chunk {index} is a second BIN chunk")));
             }

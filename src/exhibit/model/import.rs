@@ -16,8 +16,8 @@ use super::fault::{Cause, Fault, Faults};
 use super::primitive::{self, decode, is_drawn};
 use super::sources::{MAX_FILE_BYTES, Sources};
 use super::{
-    Animation, Camera, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, check, data, deform, glb,
-    material, nodes, size,
+    Animation, Camera, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, check, data, deform,
+    glb, material, nodes, size,
 };
 use soffio_math::DVec3;
 
@@ -84,12 +84,10 @@ pub fn load(path: &Path) -> Result<Model, Report> {
 /// All problems of the file.
 pub fn import(path: &Path) -> Result<Imported, Report> {
     let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-    let mut reader =
+    let reader =
         Reader { name, folder: path.parent().map(PathBuf::from).unwrap_or_default(), faults: Faults::default() };
-    match reader.read(path) {
-        Ok((model, document)) => Ok(Imported { model, warnings: reader.faults.warnings(&reader.name), document }),
-        Err(problems) => Err(Report::from(problems)),
-    }
+    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
+    reader.import(&bytes)
 }
 
 struct Reader {
@@ -115,9 +113,15 @@ impl Reader {
         if self.faults.errors.is_empty() { Ok(()) } else { Err(self.faults.errors(&self.name)) }
     }
 
-    fn read(&mut self, path: &Path) -> Outcome<(Model, Value)> {
-        let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(|problem| vec![problem])?;
-        let parts = glb::split(&bytes, &mut self.faults).map_err(|fault| self.refused(&fault))?;
+    fn import(mut self, bytes: &[u8]) -> Result<Imported, Report> {
+        match self.read(bytes) {
+            Ok((model, document)) => Ok(Imported { model, warnings: self.faults.warnings(&self.name), document }),
+            Err(problems) => Err(Report::from(problems)),
+        }
+    }
+
+    fn read(&mut self, bytes: &[u8]) -> Outcome<(Model, Value)> {
+        let parts = glb::split(bytes, &mut self.faults).map_err(|fault| self.refused(&fault))?;
         let mut root: Value = serde_json::from_slice(parts.json).map_err(|error| self.refused(&syntax(&error)))?;
         check::document(&mut root, &mut self.faults);
         self.extensions(&root);
@@ -277,7 +281,10 @@ impl Reader {
         match camera.projection() {
             gltf::camera::Projection::Perspective(lens) => {
                 let fovy = f64::from(lens.yfov()).clamp(LEAST_FOV, GREATEST_FOV);
-                Camera { fovy, aspect: lens.aspect_ratio().map(|x| f64::from(x).clamp(LEAST_ASPECT, 1.0 / LEAST_ASPECT)) }
+                Camera {
+                    fovy,
+                    aspect: lens.aspect_ratio().map(|x| f64::from(x).clamp(LEAST_ASPECT, 1.0 / LEAST_ASPECT)),
+                }
             }
             gltf::camera::Projection::Orthographic(_) => {
                 /// Field of view that approximates a parallel projection.
@@ -317,9 +324,10 @@ fn represent(root: &Value) -> Result<gltf::Document, Fault> {
     let mut found = None;
     typed.validate(&typed, json::Path::new, &mut |path: &dyn Fn() -> json::Path, error: Error| {
         let path = path().to_string();
-        // An accessor without a view is legal: its elements are zeros.
-        let zeros = error == Error::Missing && path.starts_with("accessors[") && path.ends_with(".bufferView");
-        if !zeros && found.is_none() {
+        // Legal: accessors without a view, whose elements are zeros, and primitives without positions, which are not drawn.
+        let zeros = path.starts_with("accessors[") && path.ends_with(".bufferView");
+        let nowhere = path.starts_with("meshes[") && path.ends_with("[\"POSITION\"]");
+        if !(error == Error::Missing && (zeros || nowhere)) && found.is_none() {
             found = Some(Fault::at(Cause::Range, path, error));
         }
     });
@@ -342,5 +350,16 @@ fn punctual(light: &gltf::khr_lights_punctual::Light) -> Light {
         color: DVec3::from(light.color().map(f64::from)),
         intensity: f64::from(light.intensity()),
         range: light.range().map_or(f64::INFINITY, f64::from),
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Reads the bytes of a model's file, in a folder without others.
+    pub fn read(bytes: &[u8]) -> Result<Imported, Report> {
+        let folder = PathBuf::from("no/such/folder");
+        Reader { name: "model.glb".into(), folder, faults: Faults::default() }.import(bytes)
     }
 }

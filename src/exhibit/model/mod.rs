@@ -17,6 +17,8 @@ mod primitive;
 mod scene;
 mod size;
 mod sources;
+#[cfg(test)]
+mod tests;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use appearance::{AlphaMode, Appearance, Details, Levels, Sampler, ScaledTexture, TextureUse, Wrap};

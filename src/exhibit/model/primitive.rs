@@ -41,7 +41,11 @@ pub fn decode(
     };
     let count = positions.len();
     let same = |length: usize, what: &str| {
-        if length == count { Ok(()) } else { Err(Fault::new(Cause::Count, format_args!("{what} and positions differ in number"))) }
+        if length == count {
+            Ok(())
+        } else {
+            Err(Fault::new(Cause::Count, format_args!("{what} and positions differ in number")))
+        }
     };
     let mut out = Primitive { indices: triangles(primitive.mode(), &list), ..Primitive::default() };
     out.material = primitive.material().index();

@@ -29,7 +29,8 @@ pub fn positions(positions: &[[f32; 3]], accessor: usize) -> Result<(), ModelErr
     let beyond = |p: &[f32; 3]| p.iter().any(|x| !x.is_finite() || f64::from(x.abs()) > MAX_COORDINATE);
     match positions.iter().position(beyond) {
         Some(vertex) => {
-            let what = format_args!("vertex {vertex} is at {:?}; coordinates go to {MAX_COORDINATE:e}", positions[vertex]);
+            let what =
+                format_args!("vertex {vertex} is at {:?}; coordinates go to {MAX_COORDINATE:e}", positions[vertex]);
             Err(Fault::at(Cause::Size, format_args!("accessors[{accessor}]"), what))
         }
         None => Ok(()),
@@ -42,7 +43,10 @@ pub fn positions(positions: &[[f32; 3]], accessor: usize) -> Result<(), ModelErr
 /// The first time or value that is not.
 pub fn keys(times: &[f64], track: &Track, cubic: bool) -> Result<(), ModelError> {
     if let Some(last) = times.last().filter(|last| **last > MAX_TIME) {
-        return Err(Fault::new(Cause::Size, format_args!("its last key is at {last:e} s; animations go to {MAX_TIME:e} s")));
+        return Err(Fault::new(
+            Cause::Size,
+            format_args!("its last key is at {last:e} s; animations go to {MAX_TIME:e} s"),
+        ));
     }
     // Cubic channels hold tangents beside their values.
     let reach = |value: DVec3, index: usize, bound: f64| {
@@ -57,7 +61,9 @@ pub fn keys(times: &[f64], track: &Track, cubic: bool) -> Result<(), ModelError>
     match beyond {
         Some(index) => Err(Fault::new(
             Cause::Size,
-            format_args!("value {index} is too large; translations go to {MAX_DISTANCE} m, other values to {MAX_COORDINATE:e}"),
+            format_args!(
+                "value {index} is too large; translations go to {MAX_DISTANCE} m, other values to {MAX_COORDINATE:e}"
+            ),
         )),
         None => Ok(()),
     }
@@ -76,13 +82,20 @@ pub fn check(nodes: &[Node], meshes: &[Mesh], faults: &mut Faults) {
         let name = &node.name;
         let at = node.world.w_axis.truncate();
         if !node.world.is_finite() || at.abs().max_element() > MAX_DISTANCE {
-            let what = format_args!("node \"{name}\" is at {:.3e} m along an axis of the world; positions go to {MAX_DISTANCE} m", at.abs().max_element());
+            let what = format_args!(
+                "node \"{name}\" is at {:.3e} m along an axis of the world; positions go to {MAX_DISTANCE} m",
+                at.abs().max_element()
+            );
             faults.add(Cause::Size, place, what);
             continue;
         }
-        if let Some(unit) = units(&node.world).into_iter().find(|&unit| unit != 0.0 && !(UNIT[0]..=UNIT[1]).contains(&unit)) {
-            let what =
-                format_args!("node \"{name}\" has the scale {unit:.3e} in the world; scales go from {:e} to {:e}", UNIT[0], UNIT[1]);
+        if let Some(unit) =
+            units(&node.world).into_iter().find(|&unit| unit != 0.0 && !(UNIT[0]..=UNIT[1]).contains(&unit))
+        {
+            let what = format_args!(
+                "node \"{name}\" has the scale {unit:.3e} in the world; scales go from {:e} to {:e}",
+                UNIT[0], UNIT[1]
+            );
             faults.add(Cause::Size, place, what);
             continue;
         }
@@ -92,7 +105,9 @@ pub fn check(nodes: &[Node], meshes: &[Mesh], faults: &mut Faults) {
             .map(|corner| node.world.transform_point3(corner).abs().max_element())
             .fold(0.0, f64::max);
         if far > MAX_DISTANCE {
-            let what = format_args!("the mesh of node \"{name}\" reaches {far:.3e} m from the origin; it may reach {MAX_DISTANCE} m");
+            let what = format_args!(
+                "the mesh of node \"{name}\" reaches {far:.3e} m from the origin; it may reach {MAX_DISTANCE} m"
+            );
             faults.add(Cause::Size, place, what);
         }
     }
@@ -105,7 +120,8 @@ fn glam_mask(corner: u32) -> glam::BVec3 {
 
 /// Box around a mesh; `None` where it is empty.
 fn extents(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
-    let points = mesh.primitives.iter().flat_map(|primitive| &primitive.positions).map(|p| DVec3::from(p.map(f64::from)));
+    let points =
+        mesh.primitives.iter().flat_map(|primitive| &primitive.positions).map(|p| DVec3::from(p.map(f64::from)));
     points.fold(None, |found, p| match found {
         Some((low, high)) => Some((low.min(p), high.max(p))),
         None => Some((p, p)),

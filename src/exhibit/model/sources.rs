@@ -140,13 +140,18 @@ impl Sources<'_> {
                     Some((media, bytes)) => {
                         let expected = ["application/octet-stream", "application/gltf-buffer"];
                         if let Some(media) = media.filter(|media| !expected.contains(&media.as_str())) {
-                            let what = format_args!("is a data URI of \"{media}\"; a buffer's is application/octet-stream");
+                            let what =
+                                format_args!("is a data URI of \"{media}\"; a buffer's is application/octet-stream");
                             faults.add(Cause::Harmless, format_args!("{place}.uri"), what);
                         }
                         (bytes, if uri.starts_with("data:") { "its data URI" } else { "its file" })
                     }
                     None => {
-                        let what = format_args!("is \"{uri}\", an address that is not opened");
+                        let what = format_args!("is \"{uri}\", an address on a network, which is not opened");
+                        let reads = |view: &Value| view["buffer"].as_u64() == Some(index as u64);
+                        if root["bufferViews"].as_array().into_iter().flatten().any(reads) {
+                            return Err(Fault::at(Cause::Uri, format_args!("{place}.uri"), what).diagnostic(self.file));
+                        }
                         faults.add(Cause::Skipped, format_args!("{place}.uri"), what);
                         (Vec::new(), "")
                     }
@@ -156,10 +161,16 @@ impl Sources<'_> {
             };
             if bytes.len() < length && !from.is_empty() {
                 let what = format_args!("is {length}, but {from} has {} bytes", bytes.len());
-                return Err(Fault::at(Cause::ShortBuffer, format_args!("{place}.byteLength"), what).diagnostic(self.file));
+                return Err(
+                    Fault::at(Cause::ShortBuffer, format_args!("{place}.byteLength"), what).diagnostic(self.file)
+                );
             }
             if from.is_empty() && uri.is_none() {
-                faults.add(Cause::Skipped, &place, "has no data: it has no uri, and the file no binary chunk for it");
+                faults.add(
+                    Cause::Skipped,
+                    &place,
+                    "has no data: it has no uri, and the file no binary chunk for it; what reads it is zeros",
+                );
             }
             buffers.push(bytes);
         }

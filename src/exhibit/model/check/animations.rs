@@ -79,7 +79,10 @@ impl Check<'_> {
         }
         let found = &self.list("nodes")[node];
         if path != "weights" && found.get("matrix").is_some() {
-            self.warn(format_args!("{at}.target"), format_args!("moves nodes[{node}], which has a matrix; it is taken apart"));
+            self.warn(
+                format_args!("{at}.target"),
+                format_args!("moves nodes[{node}], which has a matrix; it is taken apart"),
+            );
         }
         let mut each = if sampler["interpolation"] == "CUBICSPLINE" { 3 } else { 1 };
         if path == "weights" {

@@ -28,17 +28,21 @@ pub fn component_size(code: usize) -> usize {
     }
 }
 
-/// Bytes of an element. Columns of matrices begin at multiples of 4 (section 3.6.2.4).
-fn element_size(kind: &str, component: usize) -> usize {
-    let column = |rows: usize| (rows * component).next_multiple_of(4);
+/// Bytes from an element to the next where they are dense, and bytes of the last one. Columns of matrices begin at
+/// multiples of 4 (section 3.6.2.4); the last column is not padded.
+fn element_sizes(kind: &str, component: usize) -> [usize; 2] {
+    let matrix = |rows: usize| {
+        let column = (rows * component).next_multiple_of(4);
+        [rows * column, (rows - 1) * column + rows * component]
+    };
     match kind {
-        "VEC2" => 2 * component,
-        "VEC3" => 3 * component,
-        "VEC4" => 4 * component,
-        "MAT2" => 2 * column(2),
-        "MAT3" => 3 * column(3),
-        "MAT4" => 4 * column(4),
-        _ => component,
+        "VEC2" => [2 * component; 2],
+        "VEC3" => [3 * component; 2],
+        "VEC4" => [4 * component; 2],
+        "MAT2" => matrix(2),
+        "MAT3" => matrix(3),
+        "MAT4" => matrix(4),
+        _ => [component; 2],
     }
 }
 
@@ -81,23 +85,28 @@ impl<'a> Check<'a> {
         let code = whole(accessor, "componentType").unwrap_or(0);
         let (component, count) = (component_size(code), whole(accessor, "count").unwrap_or(0));
         let kind = accessor["type"].as_str().unwrap_or_default();
-        let size = element_size(kind, component);
+        let [dense, size] = element_sizes(kind, component);
         let offset = whole(accessor, "byteOffset");
         if accessor["normalized"] == true && (code == 5126 || code == 5125) {
             self.warn(format_args!("{place}.normalized"), "is for bytes and shorts; it is ignored");
         }
         match whole(accessor, "bufferView") {
             Some(view) => {
-                let stride = whole(&self.list("bufferViews")[view], "byteStride").unwrap_or(size);
+                let stride = whole(&self.list("bufferViews")[view], "byteStride").unwrap_or(dense);
                 if stride < size {
-                    let what = format_args!("its elements have {size} bytes, but bufferViews[{view}].byteStride is {stride}");
+                    let what =
+                        format_args!("its elements have {size} bytes, but bufferViews[{view}].byteStride is {stride}");
                     self.faults.add(Cause::Outside, place, what);
                 }
-                // Columns of matrices are aligned to words.
-                let unit = if kind.starts_with("MAT") { 4 } else { component };
-                self.fits(place, "", view, offset.unwrap_or(0), [stride, size, count, unit]);
+                self.fits(place, "", view, offset.unwrap_or(0), [stride, size, count, component]);
+                if let Some(offset) = offset.filter(|offset| kind.starts_with("MAT") && offset % 4 != 0) {
+                    let what = format_args!("is {offset}; columns of matrices begin at multiples of 4 bytes");
+                    self.faults.add(Cause::Misaligned, format_args!("{place}.byteOffset"), what);
+                }
             }
-            None if offset.is_some() => self.warn(format_args!("{place}.byteOffset"), "has no bufferView; it is ignored"),
+            None if offset.is_some() => {
+                self.warn(format_args!("{place}.byteOffset"), "has no bufferView; it is ignored")
+            }
             None => {}
         }
         let sparse = &accessor["sparse"];
@@ -107,10 +116,14 @@ impl<'a> Check<'a> {
             self.faults.add(Cause::Count, format_args!("{place}.sparse.count"), what);
         }
         let index_size = component_size(whole(&sparse["indices"], "componentType").unwrap_or(0));
-        for (key, size, unit) in [("indices", index_size, index_size), ("values", size, component)] {
+        for (key, dense, size, unit) in
+            [("indices", index_size, index_size, index_size), ("values", dense, size, component)]
+        {
             let part = &sparse[key];
-            let (Some(view), offset) = (whole(part, "bufferView"), whole(part, "byteOffset").unwrap_or(0)) else { continue };
-            self.fits(place, &format!(".sparse.{key}"), view, offset, [size, size, replaced, unit]);
+            let (Some(view), offset) = (whole(part, "bufferView"), whole(part, "byteOffset").unwrap_or(0)) else {
+                continue;
+            };
+            self.fits(place, &format!(".sparse.{key}"), view, offset, [dense, size, replaced, unit]);
             self.used(view, Use::Other("entries of a sparse accessor"), &format!("{place}.sparse.{key}"));
         }
     }
@@ -127,8 +140,9 @@ impl<'a> Check<'a> {
         let end = count.saturating_sub(1).checked_mul(stride).and_then(|x| x.checked_add(size)?.checked_add(offset));
         if end.is_none_or(|end| end > length) {
             let ends = end.map_or_else(|| "beyond any memory".to_owned(), |end| format!("at byte {end}"));
-            let what =
-                format_args!("names bufferViews[{view}] of {length} bytes, and the data of {count} elements ends {ends}");
+            let what = format_args!(
+                "names bufferViews[{view}] of {length} bytes, and the data of {count} elements ends {ends}"
+            );
             self.faults.add(Cause::Outside, format_args!("{place}{part}.bufferView"), what);
         }
     }

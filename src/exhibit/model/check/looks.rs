@@ -64,7 +64,10 @@ impl Check<'_> {
         if let (Some(near), Some(far)) = (number("znear"), number("zfar"))
             && far <= near
         {
-            self.warn(format_args!("{place}.{kind}.zfar"), format_args!("is {far}, not above znear {near}; neither is used"));
+            self.warn(
+                format_args!("{place}.{kind}.zfar"),
+                format_args!("is {far}, not above znear {near}; neither is used"),
+            );
         }
         for key in ["xmag", "ymag"] {
             if number(key) == Some(0.0) {

@@ -45,12 +45,14 @@ impl Check<'_> {
         for (m, mesh) in self.list("meshes").iter().enumerate() {
             let primitives = mesh["primitives"].as_array().map_or(&[][..], Vec::as_slice);
             for (index, primitive) in primitives.iter().enumerate() {
-                elements = elements.saturating_add(self.primitive(primitive, &format!("meshes[{m}].primitives[{index}]")));
+                elements =
+                    elements.saturating_add(self.primitive(primitive, &format!("meshes[{m}].primitives[{index}]")));
             }
             self.targets_agree(mesh, primitives, m);
         }
         if elements > MAX_ELEMENTS {
-            let what = format_args!("have {elements} elements of attributes and morph targets; the limit is {MAX_ELEMENTS}");
+            let what =
+                format_args!("have {elements} elements of attributes and morph targets; the limit is {MAX_ELEMENTS}");
             self.faults.push(Fault::at(Cause::Limit, "meshes", what));
         }
         for (index, node) in self.list("nodes").iter().enumerate() {
@@ -80,7 +82,10 @@ impl Check<'_> {
                 let strided = self.list("bufferViews")[view].get("byteStride").is_some();
                 let before = views.insert(view, accessor);
                 if !strided && before.is_some_and(|other| other != accessor) {
-                    self.warn(&at, format_args!("shares bufferViews[{view}], which has no byteStride; it is read as dense"));
+                    self.warn(
+                        &at,
+                        format_args!("shares bufferViews[{view}], which has no byteStride; it is read as dense"),
+                    );
                 }
             }
         }
@@ -90,7 +95,8 @@ impl Check<'_> {
             let (kind, component) = self.format(indices);
             if kind != "SCALAR" || ![UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT].contains(&component) {
                 let name = component_name(component);
-                let what = format_args!("names accessors[{indices}] of {kind} {name}; indices are SCALAR unsigned integers");
+                let what =
+                    format_args!("names accessors[{indices}] of {kind} {name}; indices are SCALAR unsigned integers");
                 self.faults.add(Cause::Format, &at, what);
             }
             elements = elements.saturating_add(self.count(indices));
@@ -108,7 +114,8 @@ impl Check<'_> {
                 };
                 let (count, wanted) = (self.count(accessor), self.count(base as usize));
                 if count != wanted {
-                    let what = format_args!("names accessors[{accessor}] of {count} elements; the attribute has {wanted}");
+                    let what =
+                        format_args!("names accessors[{accessor}] of {count} elements; the attribute has {wanted}");
                     self.faults.add(Cause::Count, &at, what);
                 }
             }
@@ -119,7 +126,8 @@ impl Check<'_> {
 
     fn attribute(&mut self, semantic: &str, accessor: usize, target: bool, at: &str) {
         let found = &self.list("accessors")[accessor];
-        let (kind, component) = (found["type"].as_str().unwrap_or_default(), whole(found, "componentType").unwrap_or(0));
+        let (kind, component) =
+            (found["type"].as_str().unwrap_or_default(), whole(found, "componentType").unwrap_or(0));
         self.accessor_used(accessor, Use::Vertices, at);
         if semantic == "POSITION" && (found.get("min").is_none() || found.get("max").is_none()) {
             self.warn(at, format_args!("names accessors[{accessor}], which has no min and max"));
@@ -166,7 +174,12 @@ impl Check<'_> {
     /// Numbered attributes count from 0 without gaps; joints have weights.
     fn sets(&mut self, attributes: &serde_json::Map<String, Value>, place: &str) {
         let count = |base: &str| {
-            attributes.keys().filter(|key| key.strip_prefix(base).is_some_and(|rest| format(key, false).is_some() && !rest.is_empty())).count()
+            attributes
+                .keys()
+                .filter(|key| {
+                    key.strip_prefix(base).is_some_and(|rest| format(key, false).is_some() && !rest.is_empty())
+                })
+                .count()
         };
         for base in ["TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"] {
             if let Some(gap) = (0..count(base)).find(|i| !attributes.contains_key(&format!("{base}{i}"))) {

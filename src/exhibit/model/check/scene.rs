@@ -71,8 +71,11 @@ impl Check<'_> {
             self.faults.add(Cause::Tree, format_args!("nodes[{node}]"), what);
         }
         if let Some(node) = depths.iter().position(|&depth| depth > MAX_DEPTH) {
-            let what =
-                format_args!("node {} is {} nodes below its root; the limit is {MAX_DEPTH}", self.name(node), depths[node]);
+            let what = format_args!(
+                "node {} is {} nodes below its root; the limit is {MAX_DEPTH}",
+                self.name(node),
+                depths[node]
+            );
             let help = "put the nodes beside each other, or leave out empty ones between them, and export again";
             self.faults.push(Fault::at(Cause::Limit, format_args!("nodes[{node}]"), what).remedy(help));
         }
@@ -112,7 +115,10 @@ impl Check<'_> {
                 let what = format_args!("of node {} has no length; a rotation has the length 1", self.name(index));
                 self.faults.add(Cause::Range, format_args!("{place}.rotation"), what);
             } else if (size - 1.0).abs() > ROUNDED {
-                self.warn(format_args!("{place}.rotation"), format_args!("has the length {size}; it is read as if it were 1"));
+                self.warn(
+                    format_args!("{place}.rotation"),
+                    format_args!("has the length {size}; it is read as if it were 1"),
+                );
             }
         }
         let mesh = whole(node, "mesh");

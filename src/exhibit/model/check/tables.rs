@@ -232,8 +232,10 @@ static METALLIC_ROUGHNESS: Table = table(
     ],
 );
 
-static MESH: Table =
-    table("mesh", &[NAME, must("primitives", Kind::Objects(&PRIMITIVE)), may("weights", Kind::Numbers(1, usize::MAX, ANY))]);
+static MESH: Table = table(
+    "mesh",
+    &[NAME, must("primitives", Kind::Objects(&PRIMITIVE)), may("weights", Kind::Numbers(1, usize::MAX, ANY))],
+);
 
 static PRIMITIVE: Table = table(
     "primitive",
