@@ -128,8 +128,8 @@ impl Reader {
         self.sound()?;
         let document = represent(&root).map_err(|fault| self.refused(&fault))?;
         let (name, folder) = (self.name.clone(), self.folder.clone());
-        let sources = Sources { file: &name, folder: &folder };
-        let buffers = sources.buffers(&root, parts.bin, &mut self.faults).map_err(|problem| vec![problem])?;
+        let sources = Sources { file: &name, folder: &folder, root: &root };
+        let buffers = sources.buffers(parts.bin, &mut self.faults).map_err(|problem| vec![problem])?;
         data::check(&document, &buffers, &mut self.faults);
         self.sound()?;
         let (mut nodes, roots) = nodes::nodes(&document).map_err(|fault| self.refused(&fault))?;
@@ -154,7 +154,7 @@ impl Reader {
                     material::appearance(&m, &document, |what| self.warn(&place, what))
                 })
                 .collect(),
-            images: sources.images(&root, &buffers, &mut self.faults).map_err(|problem| vec![problem])?,
+            images: sources.images(&buffers, &mut self.faults).map_err(|problem| vec![problem])?,
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
             animations: self.animations(&document, &buffers)?,
@@ -268,7 +268,8 @@ impl Reader {
             let name = source.name().map_or_else(|| format!("#{}", source.index()), str::to_owned);
             let mut channels = Vec::new();
             for (index, channel) in source.channels().enumerate() {
-                let place = format_args!("animations[{}].channels[{index}] of \"{name}\"", source.index()).to_string();
+                let place =
+                    format_args!("animations[{}].channels[{index}] (animation \"{name}\")", source.index()).to_string();
                 let decoded = animation::channel(&channel, buffers);
                 channels.push(decoded.map_err(|fault| self.refused(&fault.within(place)))?);
             }

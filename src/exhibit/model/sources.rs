@@ -15,6 +15,8 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 pub const MAX_IMAGE_PIXELS: u64 = 8192 * 8192;
 /// Most pixels of all images together: 1 GiB when decoded.
 pub const MAX_PIXELS: u64 = 4 * MAX_IMAGE_PIXELS;
+/// Media types of images that are read.
+const READ: [&str; 2] = ["image/png", "image/jpeg"];
 /// Remedy for images that are too large.
 const SHRINK: &str = "gltf-transform resize --width 4096 --height 4096 in.glb out.glb";
 
@@ -24,6 +26,8 @@ pub struct Sources<'a> {
     pub file: &'a str,
     /// Its folder.
     pub folder: &'a Path,
+    /// Its document, checked.
+    pub root: &'a Value,
 }
 
 /// The media type of a data URI and its bytes; `None` where it is none that is well formed.
@@ -102,60 +106,53 @@ fn media_of(bytes: &[u8]) -> Option<&'static str> {
 }
 
 impl Sources<'_> {
-    /// Bytes of a URI, with its media type if it is a data URI; `None` where it is an address on a network.
-    fn read(&self, uri: &str, place: &str) -> Result<Option<(Option<String>, Vec<u8>)>, Diagnostic> {
+    /// Bytes of a URI, with its media type if it is a data URI.
+    fn read(&self, uri: &str, place: &str) -> Result<(Option<String>, Vec<u8>), Diagnostic> {
         if uri.starts_with("data:") {
             return match data_uri(uri) {
-                Some((media, bytes)) => Ok(Some((Some(media.to_ascii_lowercase()), bytes))),
+                Some((media, bytes)) => Ok((Some(media.to_ascii_lowercase()), bytes)),
                 None => Err(Fault::at(Cause::Uri, place, "is a data URI that cannot be decoded").diagnostic(self.file)),
             };
-        }
-        if is_address(uri) {
-            return Ok(None);
-        }
-        if uri.is_empty() || uri.contains(':') {
-            let what = format_args!("is \"{uri}\", which is no path of a file");
-            return Err(Fault::at(Cause::Uri, place, what).diagnostic(self.file));
         }
         let named = |mut problem: Diagnostic| {
             problem.message = format!("{}: {place}: {}", self.file, problem.message);
             problem
         };
         let path = paths::inside(self.folder, &paths::percent_decoded(uri)).map_err(named)?;
-        paths::read_limited(&path, MAX_FILE_BYTES).map(|bytes| Some((None, bytes))).map_err(named)
+        if uri.is_empty() || uri.contains(':') {
+            let what = format_args!("is \"{uri}\", which is no path of a file");
+            return Err(Fault::at(Cause::Uri, place, what).diagnostic(self.file));
+        }
+        paths::read_limited(&path, MAX_FILE_BYTES).map(|bytes| (None, bytes)).map_err(named)
     }
 
     /// Bytes of each buffer; empty where the file does not have them.
     ///
     /// # Errors
     /// A file that cannot be read, or that is shorter than the model says.
-    pub fn buffers(&self, root: &Value, bin: Option<&[u8]>, faults: &mut Faults) -> Result<Vec<Vec<u8>>, Diagnostic> {
+    pub fn buffers(&self, bin: Option<&[u8]>, faults: &mut Faults) -> Result<Vec<Vec<u8>>, Diagnostic> {
         let mut buffers = Vec::new();
-        for (index, buffer) in root["buffers"].as_array().into_iter().flatten().enumerate() {
+        for (index, buffer) in self.root["buffers"].as_array().into_iter().flatten().enumerate() {
             let length = buffer["byteLength"].as_u64().unwrap_or(0) as usize;
             let place = format!("buffers[{index}]");
             let uri = buffer["uri"].as_str();
+            let reads = |view: &Value| view["buffer"].as_u64() == Some(index as u64);
+            let unread = !self.root["bufferViews"].as_array().into_iter().flatten().any(reads);
             let (bytes, from) = match uri {
-                Some(uri) => match self.read(uri, &format!("{place}.uri"))? {
-                    Some((media, bytes)) => {
-                        let expected = ["application/octet-stream", "application/gltf-buffer"];
-                        if let Some(media) = media.filter(|media| !expected.contains(&media.as_str())) {
-                            let what =
-                                format_args!("is a data URI of \"{media}\"; a buffer's is application/octet-stream");
-                            faults.add(Cause::Harmless, format_args!("{place}.uri"), what);
-                        }
-                        (bytes, if uri.starts_with("data:") { "its data URI" } else { "its file" })
+                Some(uri) if is_address(uri) && unread => {
+                    let what = format_args!("is \"{uri}\", an address on a network, which is not opened");
+                    faults.add(Cause::Skipped, format_args!("{place}.uri"), what);
+                    (Vec::new(), "")
+                }
+                Some(uri) => {
+                    let (media, bytes) = self.read(uri, &format!("{place}.uri"))?;
+                    let expected = ["application/octet-stream", "application/gltf-buffer"];
+                    if let Some(media) = media.filter(|media| !expected.contains(&media.as_str())) {
+                        let what = format_args!("is a data URI of \"{media}\"; a buffer's is application/octet-stream");
+                        faults.add(Cause::Harmless, format_args!("{place}.uri"), what);
                     }
-                    None => {
-                        let what = format_args!("is \"{uri}\", an address on a network, which is not opened");
-                        let reads = |view: &Value| view["buffer"].as_u64() == Some(index as u64);
-                        if root["bufferViews"].as_array().into_iter().flatten().any(reads) {
-                            return Err(Fault::at(Cause::Uri, format_args!("{place}.uri"), what).diagnostic(self.file));
-                        }
-                        faults.add(Cause::Skipped, format_args!("{place}.uri"), what);
-                        (Vec::new(), "")
-                    }
-                },
+                    (bytes, if uri.starts_with("data:") { "its data URI" } else { "its file" })
+                }
                 None if index == 0 && bin.is_some() => (bin.unwrap_or_default().to_vec(), "the binary chunk"),
                 None => (Vec::new(), ""),
             };
@@ -181,18 +178,18 @@ impl Sources<'_> {
     ///
     /// # Errors
     /// An image that a texture uses cannot be read or decoded, or they are too large.
-    pub fn images(&self, root: &Value, buffers: &[Vec<u8>], faults: &mut Faults) -> Result<Vec<Image>, Diagnostic> {
-        let list = root["images"].as_array().map_or(&[][..], Vec::as_slice);
+    pub fn images(&self, buffers: &[Vec<u8>], faults: &mut Faults) -> Result<Vec<Image>, Diagnostic> {
+        let list = self.root["images"].as_array().map_or(&[][..], Vec::as_slice);
         let mut used = vec![false; list.len()];
-        for source in root["textures"].as_array().into_iter().flatten().filter_map(|t| t["source"].as_u64()) {
+        for source in self.root["textures"].as_array().into_iter().flatten().filter_map(|t| t["source"].as_u64()) {
             used[source as usize] = true;
         }
         let (mut images, mut pixels) = (Vec::new(), 0);
         for (index, image) in list.iter().enumerate() {
             let place = format!("images[{index}]");
-            match self.image(root, image, &place, buffers, &mut pixels, faults)? {
+            match self.image(image, &place, used[index], buffers, &mut pixels, faults)? {
                 Ok(image) => images.push(image),
-                Err(fault) if used[index] || fault.cause == Cause::Limit => return Err(fault.diagnostic(self.file)),
+                Err(fault) if fault.cause != Cause::Skipped => return Err(fault.diagnostic(self.file)),
                 Err(fault) => {
                     faults.add(Cause::Skipped, fault.place, format_args!("{}; no texture uses it", fault.what));
                     images.push(Image { width: 1, height: 1, rgba: vec![u8::MAX; 4] });
@@ -204,22 +201,22 @@ impl Sources<'_> {
 
     fn image(
         &self,
-        root: &Value,
         image: &Value,
         place: &str,
+        used: bool,
         buffers: &[Vec<u8>],
         pixels: &mut u64,
         faults: &mut Faults,
     ) -> Result<Result<Image, Fault>, Diagnostic> {
-        let refused = |what: String| Ok(Err(Fault::at(Cause::Image, place, what)));
         let stated = image["mimeType"].as_str().map(str::to_owned);
         let (media, bytes) = match image["uri"].as_str() {
-            Some(uri) => match self.read(uri, &format!("{place}.uri"))? {
-                Some(found) => found,
-                None => return refused(format!("is at {uri}, which is not opened")),
-            },
-            None => (None, view(root, image, buffers).to_vec()),
+            Some(uri) => self.read(uri, &format!("{place}.uri"))?,
+            None => (None, view(self.root, image, buffers).to_vec()),
         };
+        // Where nothing says that it should be readable, it may be of a format for other programs.
+        let readable = [&stated, &media].into_iter().flatten().any(|kind| READ.contains(&kind.as_str()));
+        let cause = if readable || used { Cause::Image } else { Cause::Skipped };
+        let refused = |what: String| Ok(Err(Fault::at(cause, place, what)));
         if bytes.is_empty() {
             return refused("has no data".to_owned());
         }

@@ -157,12 +157,12 @@ impl<'f> Walk<'f> {
     }
 
     fn unknown(&mut self, field: &Field, place: Place, value: std::fmt::Arguments, known: &str) -> bool {
-        if field.required {
-            self.faults.add(Cause::Range, place, format_args!("is {value}; it must be one of {known}"));
-        } else {
+        if field.hint {
             self.faults.add(Cause::Skipped, place, format_args!("is {value}, which is ignored; known are {known}"));
+        } else {
+            self.faults.add(Cause::Range, place, format_args!("is {value}; it must be one of {known}"));
         }
-        field.required
+        !field.hint
     }
 
     /// Each entry of a list.

@@ -21,6 +21,8 @@ pub struct Field {
     pub kind: Kind,
     /// Must it be there?
     pub required: bool,
+    /// May a word or number that is not known be read as if it were not there?
+    pub hint: bool,
 }
 
 /// What a field holds.
@@ -46,9 +48,9 @@ pub enum Kind {
     Text,
     /// Texts.
     Texts,
-    /// One of these words; another is not known yet, and read as if it were not there.
+    /// One of these words.
     Choice(&'static [&'static str]),
-    /// One of these numbers, likewise.
+    /// One of these numbers.
     Code(&'static [u64]),
     /// An object.
     Object(&'static Table),
@@ -73,11 +75,16 @@ const POSITIVE: Range = Range { low: 0.0, above: true, ..ANY };
 const SHARE: Range = Range { low: 0.0, high: 1.0, above: false };
 
 const fn must(key: &'static str, kind: Kind) -> Field {
-    Field { key, kind, required: true }
+    Field { key, kind, required: true, hint: false }
 }
 
 const fn may(key: &'static str, kind: Kind) -> Field {
-    Field { key, kind, required: false }
+    Field { key, kind, required: false, hint: false }
+}
+
+/// A field whose unknown values change little.
+const fn hint(key: &'static str, kind: Kind) -> Field {
+    Field { key, kind, required: false, hint: true }
 }
 
 const fn table(name: &'static str, fields: &'static [Field]) -> Table {
@@ -130,7 +137,7 @@ static VIEW: Table = table(
         may("byteOffset", Kind::Whole(0)),
         must("byteLength", Kind::Whole(1)),
         may("byteStride", Kind::Whole(1)),
-        may("target", Kind::Code(&[34962, 34963])),
+        hint("target", Kind::Code(&[34962, 34963])),
     ],
 );
 
@@ -185,10 +192,10 @@ static SAMPLER: Table = table(
     "sampler",
     &[
         NAME,
-        may("magFilter", Kind::Code(&[9728, 9729])),
-        may("minFilter", Kind::Code(&[9728, 9729, 9984, 9985, 9986, 9987])),
-        may("wrapS", Kind::Code(&[33071, 33648, 10497])),
-        may("wrapT", Kind::Code(&[33071, 33648, 10497])),
+        hint("magFilter", Kind::Code(&[9728, 9729])),
+        hint("minFilter", Kind::Code(&[9728, 9729, 9984, 9985, 9986, 9987])),
+        hint("wrapS", Kind::Code(&[33071, 33648, 10497])),
+        hint("wrapT", Kind::Code(&[33071, 33648, 10497])),
     ],
 );
 
@@ -215,7 +222,7 @@ static MATERIAL: Table = table(
         may("occlusionTexture", Kind::Object(&INFO)),
         may("emissiveTexture", Kind::Object(&INFO)),
         may("emissiveFactor", Kind::Numbers(3, 3, SHARE)),
-        may("alphaMode", Kind::Choice(&["OPAQUE", "MASK", "BLEND"])),
+        hint("alphaMode", Kind::Choice(&["OPAQUE", "MASK", "BLEND"])),
         may("alphaCutoff", Kind::Number(NOT_NEGATIVE)),
         may("doubleSided", Kind::Flag),
     ],
@@ -325,7 +332,7 @@ static ANIMATION_SAMPLER: Table = table(
 
 static CHANNEL: Table = table("channel", &[must("sampler", Kind::Whole(0)), must("target", Kind::Object(&TARGET))]);
 
-static TARGET: Table = table("target", &[may("node", Kind::Index("nodes")), may("path", Kind::Choice(PATHS))]);
+static TARGET: Table = table("target", &[may("node", Kind::Index("nodes")), hint("path", Kind::Choice(PATHS))]);
 
 /// Top-level list of the lights, which an extension holds.
 pub const LIGHTS: &str = "lights";
