@@ -10,12 +10,12 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::khr;
-use super::nodes::{fit, meshes, sidecar_name, toml_vector, world_meshes};
+use super::nodes::{Names, fit, meshes, toml_vector, world_meshes};
 use super::texts::{AttractBreath, attract, in_three_languages, labels, quoted};
 use super::{ExhibitFolder, FolderFile};
 use soffio_exhibit::diagnostic::{Diagnostic, Report};
-use soffio_exhibit::model::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, Model, import};
-use soffio_exhibit::{SIDECAR, codes, materials, paths};
+use soffio_exhibit::model::{Imported, MAX_FILE_BYTES, Model, import};
+use soffio_exhibit::{SIDECAR, materials, paths};
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 
@@ -24,6 +24,8 @@ const STATIC_WORDS: [&str; 14] = [
     "stand", "base", "floor", "ground", "wall", "room", "frame", "ceiling", "post", "plinth", "foot", "table", "case",
     "support",
 ];
+/// Most objects for which bodies are proposed: more than a kiosk moves in real time. Each is compared with every other.
+const MAX_PROPOSED: usize = 256;
 /// Proposed material, and thickness of its sheet, m.
 const MATERIAL: &str = "aluminium";
 const SHEET_THICKNESS: f64 = 1e-3;
@@ -33,9 +35,8 @@ const SHEET_THICKNESS: f64 = 1e-3;
 /// # Errors
 /// Problems of the model, and referenced files that cannot be read.
 pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
-    let Imported { model, warnings } = import(path)?;
+    let Imported { model, warnings, document: json } = import(path)?;
     let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
-    let json = document(&bytes).map_err(Report::single)?;
     let binary = bytes.starts_with(b"glTF");
     let name = format!("{id}.{}", if binary { "glb" } else { "gltf" });
     let mut made = ExhibitFolder { files: referenced_files(path, &json).map_err(Report::single)?, remarks: Vec::new() };
@@ -46,25 +47,14 @@ pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
     Ok(made)
 }
 
-/// The JSON of a glTF file.
-fn document(bytes: &[u8]) -> Result<Value, Diagnostic> {
-    let broken = |error: &dyn std::fmt::Display| {
-        Diagnostic::new(codes::BROKEN_MODEL, format!("the model's JSON cannot be read: {error}")).help(EXPORT_AGAIN)
-    };
-    if bytes.starts_with(b"glTF") {
-        let glb = gltf::binary::Glb::from_slice(bytes).map_err(|error| broken(&error))?;
-        return serde_json::from_slice(&glb.json).map_err(|error| broken(&error));
-    }
-    serde_json::from_slice(bytes).map_err(|error| broken(&error))
-}
-
 /// Buffers and images that the model references, by their paths in the file.
 fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagnostic> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut files: Vec<FolderFile> = Vec::new();
     for kind in ["buffers", "images"] {
         for uri in json[kind].as_array().into_iter().flatten().filter_map(|entry| entry["uri"].as_str()) {
-            if uri.starts_with("data:") {
+            // Data lies in the file; addresses are not opened.
+            if uri.starts_with("data:") || uri.contains("://") {
                 continue;
             }
             let name = paths::percent_decoded(uri);
@@ -78,6 +68,7 @@ fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagno
 }
 
 fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<String>) -> String {
+    let names = Names::new(model);
     let physics = khr::physics(model, json);
     let mut out = format!(
         "# Made by `soffio import`: a proposal. Check bodies and joints, and REPLACE the texts.\n\
@@ -87,7 +78,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     );
     let camera = model.nodes.iter().position(|node| node.camera.is_some());
     match camera {
-        Some(node) => _ = writeln!(out, "camera = {}", quoted(&sidecar_name(model, node))),
+        Some(node) => _ = writeln!(out, "camera = {}", quoted(&names.of(node))),
         None => out.push_str("# The model has no camera: its bounds are framed. camera = \"NodeName\" uses one.\n"),
     }
     out.push_str("# Level of all sounds: `soffio loudness --write` makes exhibits equally loud.\nlevel = \"0 dB\"\n\n");
@@ -107,11 +98,11 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
             remarks.extend(physics.remarks);
             physics.moving
         }
-        None => propose_bodies(&mut out, model, remarks),
+        None => propose_bodies(&mut out, model, &names, remarks),
     };
     let seen: Vec<usize> = moving.iter().copied().filter(|&node| !meshes(model, node).is_empty()).collect();
     for (seed, node) in (1..).zip(&seen) {
-        let name = quoted(&sidecar_name(model, *node));
+        let name = quoted(&names.of(*node));
         let _ = write!(
             out,
             "[[wind_surface]]\nnode = {name}\nsampling = {{ per_area = \"4000 /m2\", min = 16, max = 64, seed = {seed} }}\n\n"
@@ -119,7 +110,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
     }
     let mut captions = Vec::new();
     if let Some(node) = seen.first() {
-        let name = quoted(&sidecar_name(model, *node));
+        let name = quoted(&names.of(*node));
         let _ = write!(
             out,
             "# `soffio sound --list` names the timbres; on = \"impact\" plays at impacts on a body.\n\
@@ -151,7 +142,7 @@ fn sidecar(id: &str, file: &str, model: &Model, json: &Value, remarks: &mut Vec<
 }
 
 /// Proposes bodies for a model without physics; returns the moving nodes.
-fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) -> Vec<usize> {
+fn propose_bodies(out: &mut String, model: &Model, names: &Names, remarks: &mut Vec<String>) -> Vec<usize> {
     out.push_str(
         "# ---- bodies, as proposed --------------------------------------------------------------------------------------\n\
          # A body moves as one with the nodes below it. Each hangs on a nail above its centre: put the nail where the object\n\
@@ -164,10 +155,16 @@ fn propose_bodies(out: &mut String, model: &Model, remarks: &mut Vec<String>) ->
     {
         objects = model.nodes[only].children.clone();
     }
+    if objects.len() > MAX_PROPOSED {
+        let count = objects.len();
+        remarks
+            .push(format!("{count} objects: bodies are proposed for the first {MAX_PROPOSED}, the others are fixed"));
+        objects.truncate(MAX_PROPOSED);
+    }
     let boxes: Vec<(DVec3, DVec3)> = objects.iter().map(|&node| bounds(&world_meshes(model, node))).collect();
     let mut moving = Vec::new();
     for (i, &node) in objects.iter().enumerate() {
-        let (name, solids) = (sidecar_name(model, node), world_meshes(model, node));
+        let (name, solids) = (names.of(node), world_meshes(model, node));
         if solids.is_empty() {
             continue;
         }

@@ -6,12 +6,13 @@
 //! nodes in both formats, so every joint names its two nodes. What the sidecar cannot express is reported, node by
 //! node.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use serde_json::Value;
 
 use super::khr_joint;
-use super::nodes::{fit, sidecar_name, toml_vector};
+use super::nodes::{Names, fit, toml_vector};
 use super::piece::NO_MASS;
 use super::texts::quoted;
 use soffio_exhibit::model::Model;
@@ -26,6 +27,9 @@ pub const SHAPES: &str = "KHR_implicit_shapes";
 const DENSITY: f64 = 1000.0;
 /// Most pairs of materials and of colliders that are written.
 const MAX_PAIRS: usize = 400;
+
+/// Most colliders with filters whose pairs are compared.
+const MAX_FILTERED: usize = 1000;
 
 /// A model's physics as sidecar tables.
 #[derive(Clone, Debug, Default)]
@@ -42,9 +46,17 @@ pub struct Physics {
 
 /// Converts a model's physics; `None` where it has none. `json` is the file's JSON.
 pub fn physics(model: &Model, json: &Value) -> Option<Physics> {
-    let mut reader = Reader { model, json, out: Physics::default() };
+    let mut reader = Reader {
+        model,
+        json,
+        names: Names::new(model),
+        owners: Vec::new(),
+        parts: BTreeMap::new(),
+        out: Physics::default(),
+    };
     let carries = (0..model.nodes.len()).any(|node| reader.extension(node).is_some());
     carries.then(|| {
+        reader.owners();
         reader.materials();
         reader.bodies();
         reader.colliders();
@@ -121,6 +133,11 @@ impl Solid {
 pub(super) struct Reader<'a> {
     pub(super) model: &'a Model,
     json: &'a Value,
+    pub(super) names: Names<'a>,
+    /// For each node, the nearest ancestor with a motion, or the node itself.
+    owners: Vec<Option<usize>>,
+    /// The nodes that move with each node that has a motion.
+    parts: BTreeMap<usize, Vec<usize>>,
     pub(super) out: Physics,
 }
 
@@ -136,14 +153,31 @@ impl Reader<'_> {
     }
 
     pub(super) fn remark(&mut self, node: usize, what: impl std::fmt::Display) {
-        let name = sidecar_name(self.model, node);
+        let name = self.names.of(node);
         self.out.remarks.push(format!("node \"{name}\": {what}"));
+    }
+
+    /// Finds what each node moves with, from the roots on.
+    fn owners(&mut self) {
+        let nodes = &self.model.nodes;
+        self.owners = vec![None; nodes.len()];
+        let mut open: Vec<usize> = (0..nodes.len()).filter(|&node| nodes[node].parent.is_none()).collect();
+        while let Some(node) = open.pop() {
+            let moves = self.extension(node).is_some_and(|extension| extension.get("motion").is_some());
+            self.owners[node] =
+                if moves { Some(node) } else { nodes[node].parent.and_then(|above| self.owners[above]) };
+            open.extend(&nodes[node].children);
+        }
+        for (node, owner) in self.owners.iter().enumerate() {
+            if let Some(owner) = owner {
+                self.parts.entry(*owner).or_default().push(node);
+            }
+        }
     }
 
     /// The nearest ancestor with a motion, or the node itself.
     pub(super) fn moving_ancestor(&self, node: usize) -> Option<usize> {
-        std::iter::successors(Some(node), |&n| self.model.nodes[n].parent)
-            .find(|&n| self.extension(n).is_some_and(|extension| extension.get("motion").is_some()))
+        self.owners[node]
     }
 
     fn materials(&mut self) {
@@ -189,7 +223,7 @@ impl Reader<'_> {
             };
             let animated =
                 self.model.animations.iter().any(|a| a.channels.iter().any(|c| c.node == node && !c.shapes()));
-            let mut table = format!("[[body]]\nnode = {}\n", quoted(&sidecar_name(self.model, node)));
+            let mut table = format!("[[body]]\nnode = {}\n", quoted(&self.names.of(node)));
             let kinematic = motion["isKinematic"].as_bool() == Some(true);
             let infinite = motion["mass"].as_f64() == Some(0.0);
             if animated {
@@ -287,7 +321,7 @@ impl Reader<'_> {
 
     /// Nodes that move with a body's node.
     fn nodes_of_body(&self, node: usize) -> Vec<usize> {
-        (0..self.model.nodes.len()).filter(|&n| self.moving_ancestor(n) == Some(node)).collect()
+        self.parts.get(&node).cloned().unwrap_or_default()
     }
 
     /// Mass properties of a body's shapes, in its rigid frame.
@@ -358,7 +392,7 @@ impl Reader<'_> {
             let Some(shape) = self.shape_of(node, collider) else { continue };
             let material =
                 collider["physicsMaterial"].as_u64().map_or(String::new(), |i| format!("material = \"khr-{i}\"\n"));
-            let name = quoted(&sidecar_name(self.model, node));
+            let name = quoted(&self.names.of(node));
             let _ = write!(self.out.text, "[[collider]]\nnode = {name}\n{material}shape = {shape}\n\n");
             if let Some(i) = collider["collisionFilter"].as_u64()
                 && let Some(filter) = self.list("collisionFilters").get(i as usize)
@@ -367,13 +401,20 @@ impl Reader<'_> {
             }
         }
         let mut joints_open = Vec::new();
+        if filtered.len() > MAX_FILTERED {
+            let count = filtered.len();
+            self.out
+                .remarks
+                .push(format!("{count} colliders have filters: these are skipped; see [collision] exclude"));
+            filtered.clear();
+        }
         for (i, (a, one)) in filtered.iter().enumerate() {
             for (b, other) in &filtered[i + 1..] {
                 if !(collides(one, other) && collides(other, one)) {
                     joints_open.push(format!(
                         "    [{}, {}],\n",
-                        quoted(&sidecar_name(self.model, *a)),
-                        quoted(&sidecar_name(self.model, *b))
+                        quoted(&self.names.of(*a)),
+                        quoted(&self.names.of(*b))
                     ));
                 }
             }

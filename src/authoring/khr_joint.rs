@@ -17,7 +17,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use super::khr::{Reader, rotation_of};
-use super::nodes::{sidecar_name, toml_vector};
+use super::nodes::toml_vector;
 use super::texts::quoted;
 use soffio_math::{DVec3, PI, acos};
 
@@ -134,7 +134,7 @@ fn read(reader: &mut Reader, node: usize, description: &Value) -> Limits {
 }
 
 fn constraint(reader: &mut Reader, name: &str, [a, b]: [usize; 2], limits: &Limits, sign: f64) -> String {
-    let [first, second] = [a, b].map(|node| quoted(&sidecar_name(reader.model, node)));
+    let [first, second] = [a, b].map(|node| quoted(&reader.names.of(node)));
     let pivot = format!("name = \"{name}\"\nbody = {first}\nto = {{ node = {second} }}\n");
     let unit = |i: usize| toml_vector(DVec3::AXES[i]);
     let (linear, angular) = (limits.linear.locked_axes(), limits.angular.locked_axes());

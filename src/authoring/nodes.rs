@@ -1,5 +1,7 @@
 //! Names of a model's nodes in a sidecar, and their meshes in the world.
 
+use std::collections::BTreeMap;
+
 use soffio_exhibit::fit as shapes;
 use soffio_exhibit::model::Model;
 use soffio_geometry::TriangleMesh;
@@ -11,11 +13,29 @@ pub(super) fn toml_vector(v: DVec3) -> String {
     format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
 }
 
-/// Name of a node in the sidecar: its name, or its number where the name is not unique.
-pub(super) fn sidecar_name(model: &Model, node: usize) -> String {
-    let name = &model.nodes[node].name;
-    let alone = model.nodes.iter().filter(|other| other.name == *name).count() == 1;
-    if alone && !name.is_empty() && !name.starts_with('#') { name.clone() } else { format!("#{node}") }
+/// Names of a model's nodes in the sidecar.
+pub(super) struct Names<'m> {
+    model: &'m Model,
+    /// Number of nodes of each name.
+    counts: BTreeMap<&'m str, usize>,
+}
+
+impl<'m> Names<'m> {
+    /// The names of a model's nodes.
+    pub fn new(model: &'m Model) -> Self {
+        let mut counts = BTreeMap::new();
+        for node in &model.nodes {
+            *counts.entry(node.name.as_str()).or_default() += 1;
+        }
+        Self { model, counts }
+    }
+
+    /// The name of a node, or its number where the name is not unique.
+    pub fn of(&self, node: usize) -> String {
+        let name = &self.model.nodes[node].name;
+        let alone = self.counts.get(name.as_str()) == Some(&1);
+        if alone && !name.is_empty() && !name.starts_with('#') { name.clone() } else { format!("#{node}") }
+    }
 }
 
 /// Nodes at and below one that have a mesh.

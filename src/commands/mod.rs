@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 mod arguments;
+mod drivers;
 mod failure;
 mod fix;
 mod old_options;
@@ -73,6 +74,7 @@ enum Command {
 
 /// Runs the program on the process's arguments.
 pub fn run() -> ExitCode {
+    drivers::keep_quiet();
     let (arguments, warnings) = old_options::update(std::env::args_os());
     warnings.iter().for_each(|warning| eprintln!("{warning}"));
     let cli = Cli::parse_from(arguments);

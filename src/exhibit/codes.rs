@@ -81,6 +81,9 @@ codes! {
     MODEL_LIMIT = "E0303", "the model exceeds a limit";
     IMAGE = "E0304", "an image of the model cannot be decoded";
     CYCLE = "E0305", "the node tree of the model is not a tree";
+    TRUNCATED = "E0306", "the file of the model is cut short";
+    NOT_GLTF = "E0307", "the file is not glTF 2.0";
+    MODEL_SIZE = "E0308", "a place or a scale of the model is beyond what a museum can hold";
     CONFIG = "E0501", "the site's configuration is invalid";
     SCENE = "E0502", "a physics scene is invalid";
     TEXTS = "E0503", "a file of the kiosk's own texts is invalid";
@@ -98,4 +101,5 @@ codes! {
     LATE = "W0411", "a step misses its deadline";
     OLD_NAME = "W0412", "a key or a word has its old name";
     MISSING_TEXTS = "W0413", "a file of the kiosk's own texts lacks some, or leaves out a variable";
+    MODEL_FORM = "W0414", "the model contradicts glTF 2.0, without effect here";
 }

@@ -77,7 +77,8 @@ impl ReceivingPlane {
             for i in 0..8 {
                 let sign = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
                 let p = gallery.exhibit_center + half * Vec3::new(sign(1), sign(2), sign(4)) - corner;
-                let h = p.dot(normal).clamp(0.0, 0.8 * d);
+                // Below 0.8 of the lamp's height; a number that is none counts as 0.
+                let h = p.dot(normal).max(0.0).min((0.8 * d).max(0.0));
                 let foot = light + (p - light) * (d / (d - h));
                 let penumbra = lamp.radius * h / (d - h) * 1.5;
                 let at = Vec2::new(foot.dot(u), foot.dot(v));
@@ -92,8 +93,9 @@ impl ReceivingPlane {
         let (low, high) = (low.max(Vec2::ZERO), high.min(face));
         let size = (high - low).max(Vec2::splat(1e-3));
         let texel = size.max_element() / resolution as f32;
-        let texels = ((size.x / texel).ceil() as u32, (size.y / texel).ceil() as u32);
-        Self { origin: corner + u * low.x + v * low.y, u, v, normal, size, texels: (texels.0.max(1), texels.1.max(1)) }
+        let texels = |side: f32| ((side / texel).ceil() as u32).clamp(1, resolution);
+        let origin = corner + u * low.x + v * low.y;
+        Self { origin, u, v, normal, size, texels: (texels(size.x), texels(size.y)) }
     }
 }
 

@@ -643,3 +643,18 @@ fn exports_are_written_whole_and_name_what_they_leave_out() {
     assert_eq!(desk.files(), ["a.glb", "a.xml"]);
     desk.soffio(&["check", "a.glb"]).done();
 }
+
+#[test]
+fn a_graphics_driver_writes_no_errors_where_there_is_no_session() {
+    let desk = Desk::new();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_soffio"));
+    command.args(["render", text(&fish()), "--size", "64x64", "-o", text(&desk.path("a.png"))]);
+    for variable in ["XDG_RUNTIME_DIR", "DISPLAY", "WAYLAND_DISPLAY", "NODEVICE_SELECT"] {
+        command.env_remove(variable);
+    }
+    let output = command.output().expect("the program starts");
+    let said = String::from_utf8_lossy(&output.stderr);
+    // Without a driver there is no picture, but no word about the session either.
+    assert!([Some(0), Some(3)].contains(&output.status.code()), "{said}");
+    assert!(!said.contains("XDG_RUNTIME_DIR"), "{said}");
+}

@@ -287,40 +287,40 @@ fn bad_files() -> Vec<Bad> {
         changed(&format!("/bufferViews/{accessor}/buffer"), json!(5), "bufferViews");
         changed(&format!("/bufferViews/{accessor}/byteLength"), json!(1), "accessor");
         changed(&format!("/bufferViews/{accessor}/byteOffset"), json!(huge), "accessor");
-        changed(&format!("/accessors/{accessor}/count"), json!(-1), "JSON");
+        changed(&format!("/accessors/{accessor}/count"), json!(-1), "accessors");
     }
     changed("/accessors/1/count", json!(2), "normals");
-    changed("/accessors/0/type", json!("SCALAR"), "accessor 0");
-    changed("/accessors/1/type", json!("VEC2"), "accessor 1");
-    changed("/accessors/2/componentType", json!(5126), "accessor 2");
-    changed("/accessors/2/type", json!("VEC3"), "accessor 2");
+    changed("/accessors/0/type", json!("SCALAR"), "accessors[0]");
+    changed("/accessors/1/type", json!("VEC2"), "accessors[1]");
+    changed("/accessors/2/componentType", json!(5126), "accessors[2]");
+    changed("/accessors/2/type", json!("VEC3"), "accessors[2]");
     changed("/bufferViews/0/byteStride", json!(255), "byteStride");
-    changed("/meshes/0/primitives/0/attributes/POSITION", json!(77), "accessor 77");
+    changed("/meshes/0/primitives/0/attributes/POSITION", json!(77), "attributes.POSITION");
     changed("/meshes/0/primitives/0/attributes/NORMAL", json!(77), "meshes");
     changed("/meshes/0/primitives/0/indices", json!(77), "meshes");
-    changed("/meshes/0/primitives/0/indices", json!(0), "accessor 0");
+    changed("/meshes/0/primitives/0/indices", json!(0), "accessors[0]");
     changed("/meshes/0/primitives/0/material", json!(3), "primitives[0].material");
     changed("/meshes/0/primitives/0/mode", json!(9), "mode");
-    changed("/meshes/0/primitives/0/attributes", json!({"NORMAL": 1}), "POSITION");
-    changed("/meshes/0/primitives", json!(7), "JSON");
-    changed("/nodes/0/children", json!([0]), "parents");
-    changed("/nodes/1/children", json!([0]), "ancestors");
+    changed("/meshes/0/primitives/0/attributes", json!({"POSITION": "0"}), "POSITION");
+    changed("/meshes/0/primitives", json!(7), "meshes[0].primitives");
+    changed("/nodes/0/children", json!([0]), "its own child");
+    changed("/nodes/1/children", json!([0]), "its own ancestor");
     changed("/nodes/0/children", json!([1, 1]), "parents");
     changed("/nodes/0/children", json!([55]), "nodes");
     changed("/nodes/0/mesh", json!(4), "nodes");
     changed("/nodes/0/camera", json!(4), "nodes");
     changed("/nodes/0/skin", json!(4), "nodes");
-    changed("/nodes/0/matrix", json!([1, 0, 0]), "JSON");
-    changed("/nodes/0/matrix", json!(vec![1e39; 16]), "out of range");
-    changed("/nodes/0/rotation", json!([0, 0, 0, 0]), "node 0");
-    changed("/nodes/0/scale", json!([1e39, 1, 1]), "out of range");
-    changed("/nodes/0/translation", json!("far"), "JSON");
+    changed("/nodes/0/matrix", json!([1, 0, 0]), "nodes[0].matrix");
+    changed("/nodes/0/matrix", json!(vec![1e39; 16]), "infinite");
+    changed("/nodes/0/rotation", json!([0, 0, 0, 0]), "nodes[0].rotation");
+    changed("/nodes/0/scale", json!([1e39, 1, 1]), "infinite");
+    changed("/nodes/0/translation", json!("far"), "nodes[0].translation");
     changed("/scenes/0/nodes", json!([12]), "scenes");
     changed("/scene", json!(3), "scene");
     changed("/asset/version", json!("1.0"), "version");
-    changed("/asset/version", json!("2.1"), "2.0 is needed");
+    changed("/asset/minVersion", json!("2.1"), "asset.minVersion");
     changed("/asset", json!({}), "version");
-    changed("/buffers/0/byteLength", json!(huge), "buffer 0");
+    changed("/buffers/0/byteLength", json!(huge), "buffers[0]");
     changed("/buffers/0/uri", json!("/etc/passwd"), "/etc/passwd");
     changed("/buffers/0/uri", json!("../../../../etc/passwd"), "leaves");
     changed("/buffers/0/uri", json!("..%2f..%2f..%2fetc%2fpasswd"), "leaves");
@@ -329,15 +329,15 @@ fn bad_files() -> Vec<Bad> {
     changed("/buffers/0/uri", json!("C:\\windows\\win.ini"), "inside the exhibit folder");
     changed("/buffers/0/uri", json!("missing.bin"), "missing.bin");
     changed("/buffers/0/uri", json!("data:application/octet-stream;base64,!!!!"), "data URI");
-    changed("/buffers/0/uri", json!("data:application/octet-stream;base64,AAAA"), "buffer 0");
-    changed("/buffers/0/uri", json!("data:"), "buffer 0");
+    changed("/buffers/0/uri", json!("data:application/octet-stream;base64,AAAA"), "buffers[0]");
+    changed("/buffers/0/uri", json!("data:"), "buffers[0]");
     changed("/images", json!([{"uri": "/etc/passwd"}]), "/etc/passwd");
     changed("/images", json!([{"uri": "../secret.png"}]), "leaves");
     changed("/images", json!([{"uri": "https://example.org/a.png"}]), "inside the exhibit folder");
-    changed("/images", json!([{"uri": "data:image/png;base64,AAAA"}]), "image 0");
+    changed("/images", json!([{"uri": "data:image/png;base64,AAAA"}]), "images[0]");
     changed("/images", json!([{"bufferView": 9, "mimeType": "image/png"}]), "images");
-    changed("/images", json!([{"bufferView": 0, "mimeType": "image/png"}]), "image 0");
-    changed("/images", json!([{}]), "image 0");
+    changed("/images", json!([{"bufferView": 0, "mimeType": "image/png"}]), "images[0]");
+    changed("/images", json!([{}]), "images[0]");
     changed("/textures", json!([{"source": 3}]), "textures");
     changed("/skins", json!([{"joints": [90]}]), "skins");
     changed(
@@ -357,10 +357,10 @@ fn bad_files() -> Vec<Bad> {
         bin[at..at + 4].copy_from_slice(&bytes);
         list.push(Bad { name: name.into(), bytes: glb(&good_json, &bin), word });
     };
-    poison("a position is NaN", 4, f32::NAN.to_le_bytes(), "accessor 0");
-    poison("a position is infinite", 8, f32::INFINITY.to_le_bytes(), "accessor 0");
-    poison("a normal is NaN", 40, f32::NAN.to_le_bytes(), "accessor 1");
-    poison("an index is out of range", 72, [255, 255, 0, 0], "accessor 2");
+    poison("a position is NaN", 4, f32::NAN.to_le_bytes(), "accessors[0]");
+    poison("a position is infinite", 8, f32::INFINITY.to_le_bytes(), "accessors[0]");
+    poison("a normal is NaN", 40, f32::NAN.to_le_bytes(), "accessors[1]");
+    poison("an index is out of range", 72, [255, 255, 0, 0], "accessors[2]");
     // A picture that claims to be 60,000 pixels wide.
     let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xea\x60\0\0\xea\x60\x08\x06\0\0\0".to_vec();
     png.extend([0; 16]);
@@ -374,7 +374,7 @@ fn bad_files() -> Vec<Bad> {
     list.push(Bad {
         name: "a vast picture".into(),
         bytes: glb(&json, &[good_bin.clone(), png].concat()),
-        word: "image 0",
+        word: "images[0]",
     });
     // A chain of a hundred thousand nodes.
     let mut json = good_json;

@@ -122,7 +122,8 @@ fn nodes_below_a_body_play_the_animation_that_the_body_follows() {
 fn broken_key_frames_of_shapes_are_reported_with_their_place() {
     let output = |scene: &Scene| {
         let report = exhibit::load(Folder::exhibit(&scene.glb(), "").path()).expect_err("broken");
-        report.to_text()
+        // As shown, and without the breaks of lines.
+        report.to_text() + &report.diagnostics[0].message
     };
     let refused = |keys: &[(f32, Vec<f32>)], curve: &str, words: &[&str]| {
         let (mut scene, leaf) = leaf();

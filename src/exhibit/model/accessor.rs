@@ -1,18 +1,30 @@
 //! glTF accessors as plain numbers. Every view, stride and count is checked before a byte is read.
 //!
-//! The decoder reads integer and normalised positions (KHR_mesh_quantization) and sparse accessors. A file with wrong
-//! lengths gives a message instead of a panic.
+//! The decoder reads integer and normalised positions (KHR_mesh_quantization), sparse accessors, and those without a view,
+//! which are zeros (glTF 2.0, section 3.6.2). A file with wrong lengths gives a message instead of a panic.
 
 use gltf::accessor::{DataType, Dimensions};
 use gltf::buffer::View;
 
+use super::fault::{Cause, Fault};
+
 /// Most elements of one accessor.
 const MAX_COUNT: usize = 16_000_000;
+/// Most bytes of one accessor when decoded.
+const MAX_BYTES: usize = 256 << 20;
 
-/// A message that says what is wrong with an accessor.
-pub type ModelError = String;
+/// A fault of an accessor, or of what reads it.
+pub type ModelError = Fault;
 
-/// Bytes of the view's element `index`, `size` bytes long.
+/// The JSON path of an accessor.
+fn place(accessor: &gltf::Accessor) -> String {
+    format!("accessors[{}]", accessor.index())
+}
+
+/// What a buffer without data is read as.
+const ZEROS: [u8; 64] = [0; 64];
+
+/// Bytes of the view's element `index`, `size` bytes long; zeros where its buffer has no data at all.
 fn element<'b>(buffers: &'b [Vec<u8>], view: &View, offset: usize, index: usize, size: usize) -> Option<&'b [u8]> {
     let stride = view.stride().unwrap_or(size);
     let inside = index.checked_mul(stride)?.checked_add(offset)?;
@@ -20,7 +32,10 @@ fn element<'b>(buffers: &'b [Vec<u8>], view: &View, offset: usize, index: usize,
         return None;
     }
     let start = view.offset().checked_add(inside)?;
-    buffers.get(view.buffer().index())?.get(start..start.checked_add(size)?)
+    match buffers.get(view.buffer().index())?.as_slice() {
+        [] => ZEROS.get(..size),
+        buffer => buffer.get(start..start.checked_add(size)?),
+    }
 }
 
 fn number(kind: DataType, bytes: &[u8], normalized: bool) -> f32 {
@@ -40,12 +55,30 @@ fn signed(value: f32, full: f32, normalized: bool) -> f32 {
     if normalized { (value / full).max(-1.0) } else { value }
 }
 
-fn count_of(accessor: &gltf::Accessor, broken: &impl Fn(&str) -> ModelError) -> Result<usize, ModelError> {
+/// The number of elements, within the limits.
+fn count_of(accessor: &gltf::Accessor, lane_bytes: usize) -> Result<usize, ModelError> {
     let count = accessor.count();
-    if count > MAX_COUNT {
-        return Err(broken(&format!("has {count} elements; the limit is {MAX_COUNT}")));
+    if count > MAX_COUNT || count.saturating_mul(lane_bytes) > MAX_BYTES {
+        let most = MAX_COUNT.min(MAX_BYTES / lane_bytes.max(1));
+        return Err(Fault::at(
+            Cause::Limit,
+            format_args!("{}.count", place(accessor)),
+            format_args!("is {count}; the limit is {most}"),
+        ));
     }
     Ok(count)
+}
+
+/// Has the accessor no data, so that it is all zeros?
+pub fn is_empty(accessor: &gltf::Accessor, buffers: &[Vec<u8>]) -> bool {
+    let missing = |view: View| buffers.get(view.buffer().index()).is_none_or(Vec::is_empty);
+    accessor.sparse().is_none() && accessor.view().is_none_or(missing)
+}
+
+/// The view's data is not in the file, although its lengths agree.
+fn no_data(accessor: &gltf::Accessor, view: &View) -> ModelError {
+    let buffer = view.buffer().index();
+    Fault::at(Cause::ShortBuffer, place(accessor), format_args!("reads buffers[{buffer}], whose data is not there"))
 }
 
 /// Elements of `LANES` finite numbers each. Missing lanes are filled with `fill`.
@@ -58,11 +91,11 @@ pub fn vectors<const LANES: usize>(
     allowed: &[Dimensions],
     fill: f32,
 ) -> Result<Vec<[f32; LANES]>, ModelError> {
-    let broken = |what: &str| format!("accessor {} {what}", accessor.index());
     if !allowed.contains(&accessor.dimensions()) {
-        return Err(broken(&format!("is {:?}, which does not fit its use", accessor.dimensions())));
+        let what = format_args!("is {:?}, which does not fit its use", accessor.dimensions());
+        return Err(Fault::at(Cause::Format, format_args!("{}.type", place(accessor)), what));
     }
-    let count = count_of(accessor, &broken)?;
+    let count = count_of(accessor, size_of::<[f32; LANES]>())?;
     let (kind, normalized) = (accessor.data_type(), accessor.normalized());
     let lanes = accessor.dimensions().multiplicity().min(LANES);
     let lane_size = kind.size();
@@ -74,35 +107,57 @@ pub fn vectors<const LANES: usize>(
         }
         out
     };
-    let past_end = || broken("reads past the end of its buffer");
     let mut out = match accessor.view() {
         Some(view) => (0..count)
-            .map(|i| element(buffers, &view, accessor.offset(), i, size).map(decode).ok_or_else(past_end))
+            .map(|i| {
+                let bytes = element(buffers, &view, accessor.offset(), i, size);
+                bytes.map(decode).ok_or_else(|| no_data(accessor, &view))
+            })
             .collect::<Result<Vec<_>, _>>()?,
-        None => vec![[0.0; LANES]; count],
+        None => vec![decode(&ZEROS[..size.min(64)]); count],
     };
-    if let Some(sparse) = accessor.sparse() {
-        let (indices, values) = (sparse.indices(), sparse.values());
-        let index_kind = match indices.index_type() {
-            gltf::accessor::sparse::IndexType::U8 => DataType::U8,
-            gltf::accessor::sparse::IndexType::U16 => DataType::U16,
-            gltf::accessor::sparse::IndexType::U32 => DataType::U32,
-        };
-        if sparse.count() > count {
-            return Err(broken("replaces more elements than it has"));
+    replace(accessor, buffers, size, |index, bytes| match out.get_mut(index) {
+        Some(slot) => {
+            *slot = decode(bytes);
+            true
         }
-        for i in 0..sparse.count() {
-            let at = element(buffers, &indices.view(), indices.offset(), i, index_kind.size()).ok_or_else(past_end)?;
-            let value = element(buffers, &values.view(), values.offset(), i, size).ok_or_else(past_end)?;
-            let slot =
-                out.get_mut(unsigned(at) as usize).ok_or_else(|| broken("replaces an element it does not have"))?;
-            *slot = decode(value);
+        None => false,
+    })?;
+    match out.iter().position(|element| element.iter().any(|x| !x.is_finite())) {
+        Some(index) => {
+            let what = format_args!("holds a number that is not finite, in element {index}");
+            Err(Fault::at(Cause::NotFinite, place(accessor), what))
+        }
+        None => Ok(out),
+    }
+}
+
+/// Reports each entry of a sparse accessor: the index of an element and its bytes. `put` returns whether it exists.
+fn replace(
+    accessor: &gltf::Accessor,
+    buffers: &[Vec<u8>],
+    size: usize,
+    mut put: impl FnMut(usize, &[u8]) -> bool,
+) -> Result<(), ModelError> {
+    let Some(sparse) = accessor.sparse() else { return Ok(()) };
+    let (indices, values) = (sparse.indices(), sparse.values());
+    let index_size = match indices.index_type() {
+        gltf::accessor::sparse::IndexType::U8 => 1,
+        gltf::accessor::sparse::IndexType::U16 => 2,
+        gltf::accessor::sparse::IndexType::U32 => 4,
+    };
+    for i in 0..sparse.count().min(accessor.count()) {
+        let at = element(buffers, &indices.view(), indices.offset(), i, index_size)
+            .ok_or_else(|| no_data(accessor, &indices.view()))?;
+        let value = element(buffers, &values.view(), values.offset(), i, size)
+            .ok_or_else(|| no_data(accessor, &values.view()))?;
+        let index = unsigned(at);
+        if !put(index as usize, value) {
+            let what = format_args!("replaces element {index}, but the accessor has {}", accessor.count());
+            return Err(Fault::at(Cause::Index, format_args!("{}.sparse.indices", place(accessor)), what));
         }
     }
-    if out.iter().flatten().any(|x| !x.is_finite()) {
-        return Err(broken("contains numbers that are not finite"));
-    }
-    Ok(out)
+    Ok(())
 }
 
 fn unsigned(bytes: &[u8]) -> u32 {
@@ -114,20 +169,43 @@ fn unsigned(bytes: &[u8]) -> u32 {
 /// # Errors
 /// An index is not below `vertices`, or the accessor does not lie within its buffer.
 pub fn indices(accessor: &gltf::Accessor, buffers: &[Vec<u8>], vertices: usize) -> Result<Vec<u32>, ModelError> {
-    let broken = |what: &str| format!("accessor {} {what}", accessor.index());
+    let size = accessor.data_type().size();
     let unsigned_kind = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
     if accessor.dimensions() != Dimensions::Scalar || !unsigned_kind {
-        return Err(broken("is used as indices and does not hold unsigned integers"));
+        return Err(Fault::at(
+            Cause::Format,
+            place(accessor),
+            "is used as indices and does not hold unsigned integers",
+        ));
     }
-    let count = count_of(accessor, &broken)?;
-    let Some(view) = accessor.view() else { return Ok(vec![0; if vertices > 0 { count } else { 0 }]) };
-    let size = accessor.data_type().size();
-    (0..count)
-        .map(|i| {
-            let bytes = element(buffers, &view, accessor.offset(), i, size)
-                .ok_or_else(|| broken("reads past the end of its buffer"))?;
-            let index = unsigned(bytes);
-            if (index as usize) < vertices { Ok(index) } else { Err(broken("names a vertex that does not exist")) }
-        })
-        .collect()
+    let count = count_of(accessor, size_of::<u32>())?;
+    let mut out: Vec<u32> = match accessor.view() {
+        Some(view) => (0..count)
+            .map(|i| {
+                element(buffers, &view, accessor.offset(), i, size)
+                    .map(unsigned)
+                    .ok_or_else(|| no_data(accessor, &view))
+            })
+            .collect::<Result<_, _>>()?,
+        None => vec![0; count],
+    };
+    replace(accessor, buffers, size, |index, bytes| match out.get_mut(index) {
+        Some(slot) => {
+            *slot = unsigned(bytes);
+            true
+        }
+        None => false,
+    })?;
+    let restart = u32::MAX >> (32 - 8 * size as u32);
+    match out.iter().position(|&index| index as usize >= vertices || index == restart) {
+        Some(at) if out[at] == restart => {
+            let what = format_args!("is {restart} at entry {at}: glTF has no restarting of strips");
+            Err(Fault::at(Cause::Vertex, place(accessor), what))
+        }
+        Some(at) => {
+            let what = format_args!("names vertex {} at entry {at}; there are {vertices}", out[at]);
+            Err(Fault::at(Cause::Vertex, place(accessor), what))
+        }
+        None => Ok(out),
+    }
 }

@@ -10,9 +10,10 @@
 use gltf::accessor::Dimensions;
 use gltf::animation::Property;
 
-use super::accessor;
+use super::fault::{Cause, Fault};
 use super::primitive::targets;
 use super::scene::Model;
+use super::{accessor, size};
 use soffio_math::{DMat4, DQuat, DVec3};
 
 /// An animation: channels that play together.
@@ -66,7 +67,7 @@ pub enum Track {
 pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) -> Result<Channel, accessor::ModelError> {
     let (target, sampler) = (source.target(), source.sampler());
     let output = sampler.output();
-    let track = match target.property() {
+    let mut track = match target.property() {
         Property::Translation => {
             let values = accessor::vectors::<3>(&output, buffers, &[Dimensions::Vec3], 0.0)?;
             Track::Translation(values.iter().map(|v| DVec3::from(v.map(f64::from))).collect())
@@ -87,17 +88,20 @@ pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) ->
             let targets = targets(&target.node());
             let name = target.node().name().map_or_else(|| format!("#{}", target.node().index()), str::to_owned);
             if targets == 0 {
-                return Err(format!("it morphs node \"{name}\", which has no morph targets"));
+                let what = format_args!("it morphs node \"{name}\", which has no morph targets");
+                return Err(Fault::new(Cause::Count, what));
             }
             if values.len() % targets != 0 {
                 let count = values.len();
-                return Err(format!("{count} weights of node \"{name}\" are not {targets} a key, one a morph target"));
+                let what =
+                    format_args!("{count} weights of node \"{name}\" are not {targets} a key, one a morph target");
+                return Err(Fault::new(Cause::Count, what));
             }
             Track::Weights(values.chunks(targets).map(|key| key.iter().map(|[w]| f64::from(*w)).collect()).collect())
         }
     };
     let times = accessor::vectors::<1>(&sampler.input(), buffers, &[Dimensions::Scalar], 0.0)?;
-    let times: Vec<f64> = times.iter().map(|[t]| f64::from(*t)).collect();
+    let mut times: Vec<f64> = times.iter().map(|[t]| f64::from(*t)).collect();
     let curve = match sampler.interpolation() {
         gltf::animation::Interpolation::Step => Curve::Step,
         gltf::animation::Interpolation::Linear => Curve::Linear,
@@ -106,21 +110,49 @@ pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) ->
     let (values, each) = (track.len(), if curve == Curve::Cubic { 3 } else { 1 });
     if times.is_empty() || values != each * times.len() {
         let what = if matches!(track, Track::Weights(_)) { "lists of weights" } else { "values" };
-        return Err(format!("{} keys have {values} {what}", times.len()));
+        return Err(Fault::new(Cause::Count, format_args!("{} keys have {values} {what}", times.len())));
     }
-    if times[0] < 0.0 || times.windows(2).any(|pair| pair[0] >= pair[1]) {
-        return Err("its keys are not in the order of time".into());
+    if accessor::is_empty(&sampler.input(), buffers) {
+        // Without data all times are 0 (glTF 2.0, section 3.6.2.3): the first key stands for all.
+        times.truncate(1);
+        track.truncate(each);
     }
+    let input = format!("accessors[{}]", sampler.input().index());
+    if times[0] < 0.0 {
+        return Err(Fault::at(
+            Cause::Keys,
+            input,
+            format_args!("its first key is at {} s, before the start", times[0]),
+        ));
+    }
+    if let Some(k) = times.windows(2).position(|pair| pair[0] >= pair[1]) {
+        let what = format_args!(
+            "its keys are not in the order of time: key {} is at {} s, not after {} s",
+            k + 1,
+            times[k + 1],
+            times[k]
+        );
+        return Err(Fault::at(Cause::Keys, input, what));
+    }
+    size::keys(&times, &track, curve == Curve::Cubic)?;
     if let Track::Rotation(values) = &track
         && curve != Curve::Cubic
         && values.iter().any(|q| q.length() == 0.0)
     {
-        return Err("a rotation has no length".into());
+        return Err(Fault::new(Cause::Range, "a rotation has no length"));
     }
     Ok(Channel { node: target.node().index(), curve, times, track })
 }
 
 impl Track {
+    fn truncate(&mut self, length: usize) {
+        match self {
+            Self::Translation(values) | Self::Scale(values, ..) => values.truncate(length),
+            Self::Rotation(values) => values.truncate(length),
+            Self::Weights(values) => values.truncate(length),
+        }
+    }
+
     fn len(&self) -> usize {
         match self {
             Self::Translation(values) => values.len(),

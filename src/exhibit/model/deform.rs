@@ -11,6 +11,7 @@ use gltf::Semantic;
 use gltf::accessor::Dimensions::{Mat4, Vec3, Vec4};
 
 use super::accessor::{self, ModelError};
+use super::fault::{Cause, Fault};
 use super::mesh::{Influences, MorphTarget, Primitive};
 use super::primitive::MAX_TARGETS;
 use super::scene::Node;
@@ -80,7 +81,8 @@ pub fn bind(
     let joints = skin.joints().count();
     let mut all: Vec<Vec<(u16, f32)>> = vec![Vec::new(); out.positions.len()];
     skin_weights(source, all.len(), buffers, |corner, joint, share| {
-        let index = u16::try_from(joint).ok().filter(|_| joint < joints).ok_or(NO_JOINT)?;
+        let index =
+            u16::try_from(joint).ok().filter(|_| joint < joints).ok_or_else(|| Fault::new(Cause::Joint, NO_JOINT))?;
         all[corner].push((index, share));
         Ok(())
     })?;
@@ -108,7 +110,7 @@ fn morph(
     let weights = weights(node);
     for (target, weight) in source.morph_targets().take(MAX_TARGETS).zip(&weights) {
         if !weight.is_finite() {
-            return Err("a morph weight is not finite".into());
+            return Err(Fault::new(Cause::NotFinite, "a morph weight is not finite"));
         }
         let positions = differences(target.positions(), out.positions.len(), buffers, POSITIONS)?;
         add(*weight, &positions, &mut out.positions);
@@ -134,7 +136,11 @@ fn differences(
 ) -> Result<Vec<[f32; 3]>, ModelError> {
     let Some(source) = source.filter(|_| count > 0) else { return Ok(Vec::new()) };
     let differences = accessor::vectors::<3>(&source, buffers, &[Vec3], 0.0)?;
-    if differences.len() == count { Ok(differences) } else { Err(format!("{what} differ in number")) }
+    if differences.len() == count {
+        Ok(differences)
+    } else {
+        Err(Fault::new(Cause::Count, format_args!("{what} differ in number")))
+    }
 }
 
 /// Adds weighted differences; the sign of a tangent stays.
@@ -157,7 +163,7 @@ pub fn inverse_bind(skin: &gltf::Skin, buffers: &[Vec<u8>]) -> Result<Vec<DMat4>
     let Some(inverse) = skin.inverse_bind_matrices() else { return Ok(vec![DMat4::IDENTITY; joints]) };
     let inverse = accessor::vectors::<16>(&inverse, buffers, &[Mat4], 0.0)?;
     if inverse.len() < joints {
-        return Err("a skin has fewer inverse bind matrices than joints".into());
+        return Err(Fault::new(Cause::Count, "a skin has fewer inverse bind matrices than joints"));
     }
     Ok(inverse.iter().take(joints).map(|matrix| DMat4::from_cols_array(&matrix.map(f64::from))).collect())
 }
@@ -178,7 +184,7 @@ fn skin_weights(
         let joints = accessor::vectors::<4>(&joints, buffers, &[Vec4], 0.0)?;
         let skin_weights = accessor::vectors::<4>(&skin_weights, buffers, &[Vec4], 0.0)?;
         if joints.len() != corners || skin_weights.len() != corners {
-            return Err("joints, weights and positions differ in number".into());
+            return Err(Fault::new(Cause::Count, "joints, weights and positions differ in number"));
         }
         for (corner, (joints, skin_weights)) in joints.iter().zip(&skin_weights).enumerate() {
             for (joint, share) in joints.iter().zip(skin_weights).filter(|(_, share)| **share != 0.0) {
@@ -199,7 +205,7 @@ fn pose(
 ) -> Result<(), ModelError> {
     let node_from_world = world_from_node.inverse();
     if !node_from_world.is_finite() {
-        return Err("a skinned node has a scale of zero".into());
+        return Err(Fault::new(Cause::Size, "a skinned node has a scale of zero"));
     }
     let mut matrices: Vec<DMat4> = skin.joints().map(|joint| node_from_world * nodes[joint.index()].world).collect();
     for (matrix, inverse) in matrices.iter_mut().zip(inverse_bind(skin, buffers)?) {
@@ -208,7 +214,7 @@ fn pose(
     let mut blended = vec![DMat4::ZERO; out.positions.len()];
     let mut total = vec![0.0; blended.len()];
     skin_weights(source, total.len(), buffers, |corner, joint, share| {
-        blended[corner] += *matrices.get(joint).ok_or(NO_JOINT)? * f64::from(share);
+        blended[corner] += *matrices.get(joint).ok_or_else(|| Fault::new(Cause::Joint, NO_JOINT))? * f64::from(share);
         total[corner] += f64::from(share);
         Ok(())
     })?;

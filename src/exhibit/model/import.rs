@@ -1,37 +1,31 @@
 //! glTF 2.0 (`.glb`, `.gltf`) to [`Model`]: checked, decoded, within limits. Nothing here panics on a bad file.
 //!
-//! The `gltf` crate refuses every required extension outside a short list of its own. Those handled here are removed
-//! from the list before it looks; its index checks stay.
+//! The file is split ([`glb`]), its document is checked against the standard ([`check`]), and the `gltf` crate reads what is
+//! valid. Then the data of accessors is checked ([`data`]), and the sizes in the world ([`size`]).
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gltf::json;
+use serde_json::Value;
 
-use super::super::codes::{self, Code};
 use super::super::diagnostic::{Diagnostic, Report};
 use super::super::paths;
-use super::primitive::{decode, is_drawn};
+use super::check::tables::{GREATEST_FOV, LEAST_FOV};
+use super::fault::{Cause, Fault, Faults};
+use super::primitive::{self, decode, is_drawn};
+use super::sources::{MAX_FILE_BYTES, Sources};
 use super::{
-    Animation, Camera, Image, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, deform, material,
-    primitive,
+    Animation, Camera, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, check, data, deform,
+    glb, material, nodes, size,
 };
-use soffio_math::{DMat4, DQuat, DVec3};
+use soffio_math::DVec3;
 
-/// Most bytes of a model file or of a buffer beside it.
-pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// Most triangles of a model.
 pub const MAX_TRIANGLES: usize = 4_000_000;
-/// Most pixels of one image.
-pub const MAX_IMAGE_PIXELS: u64 = 8192 * 8192;
-/// Most pixels of all images together: 1 GiB when decoded.
-pub const MAX_PIXELS: u64 = 4 * MAX_IMAGE_PIXELS;
-/// Most nodes of a model.
-pub const MAX_NODES: usize = 65_536;
-/// Remedy for a file that is not a complete model.
-pub const EXPORT_AGAIN: &str = "export the model again; a copy may have been cut short";
-/// Remedy for too many triangles.
-const SIMPLIFY: &str = "simplify the model: gltf-transform simplify in.glb out.glb";
+/// Least width over height of a camera's picture, and least height over width.
+const LEAST_ASPECT: f64 = 0.01;
 
 /// Required extensions that are supported: handled here, or without effect on the picture.
 const HANDLED: &[&str] = &[
@@ -71,8 +65,10 @@ fn remedy(extension: &str) -> String {
 pub struct Imported {
     /// The model.
     pub model: Model,
-    /// Parts of the file that are not drawn.
+    /// What of the file is not drawn, or contradicts the standard without effect here.
     pub warnings: Vec<Diagnostic>,
+    /// The file's JSON.
+    pub document: Value,
 }
 
 /// Loads a plain `.glb` or `.gltf`.
@@ -89,84 +85,64 @@ pub fn load(path: &Path) -> Result<Model, Report> {
 /// All problems of the file.
 pub fn import(path: &Path) -> Result<Imported, Report> {
     let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-    let mut reader =
-        Reader { name, folder: path.parent().map(PathBuf::from).unwrap_or_default(), warnings: Vec::new() };
-    let model = reader.read(path).map_err(Report::single)?;
-    Ok(Imported { model, warnings: reader.warnings })
+    let reader =
+        Reader { name, folder: path.parent().map(PathBuf::from).unwrap_or_default(), faults: Faults::default() };
+    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
+    reader.import(&bytes)
 }
-
-/// Bytes of a GLB file's header.
-const GLB_HEADER: u32 = 12;
 
 struct Reader {
     name: String,
     folder: PathBuf,
-    warnings: Vec<Diagnostic>,
+    faults: Faults,
 }
 
-type Outcome<T> = Result<T, Diagnostic>;
+/// A value, or all problems so far.
+type Outcome<T> = Result<T, Vec<Diagnostic>>;
 
 impl Reader {
-    fn problem(&self, code: Code, what: impl std::fmt::Display, help: impl Into<String>) -> Diagnostic {
-        Diagnostic::new(code, format!("{}: {what}", self.name)).help(help)
+    fn refused(&self, fault: &Fault) -> Vec<Diagnostic> {
+        vec![fault.diagnostic(&self.name)]
     }
 
-    fn broken(&self, what: impl std::fmt::Display) -> Diagnostic {
-        self.problem(codes::BROKEN_MODEL, what, EXPORT_AGAIN)
+    fn warn(&mut self, place: impl std::fmt::Display, what: impl std::fmt::Display) {
+        self.faults.add(Cause::Skipped, place, what);
     }
 
-    fn warn(&mut self, what: impl std::fmt::Display) {
-        self.warnings.push(Diagnostic::new(codes::SKIPPED, format!("{}: {what}", self.name)));
+    /// Goes on if no errors were found.
+    fn sound(&self) -> Outcome<()> {
+        if self.faults.errors.is_empty() { Ok(()) } else { Err(self.faults.errors(&self.name)) }
     }
 
-    fn read(&mut self, path: &Path) -> Outcome<Model> {
-        let bytes = paths::read_limited(path, MAX_FILE_BYTES)?;
-        let (json_bytes, blob) = if bytes.starts_with(b"glTF") {
-            // The reader assumes that the length includes its own header.
-            let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
-            if length.is_none_or(|length| length < GLB_HEADER) {
-                return Err(self.broken("not a complete GLB file: its length is shorter than its header"));
-            }
-            let glb = gltf::binary::Glb::from_slice(&bytes)
-                .map_err(|error| self.broken(format_args!("not a whole GLB file: {error}")))?;
-            (glb.json.into_owned(), glb.bin.map(std::borrow::Cow::into_owned))
-        } else {
-            (bytes, None)
-        };
-        let mut root: json::Root = json::deserialize::from_slice(&json_bytes)
-            .map_err(|error| self.broken(format_args!("its JSON cannot be read: {error}")))?;
-        if root.asset.version != "2.0" {
-            let what = format!("glTF version {}; 2.0 is needed", root.asset.version);
-            return Err(self.problem(codes::BROKEN_MODEL, what, "export it as glTF 2.0"));
+    fn import(mut self, bytes: &[u8]) -> Result<Imported, Report> {
+        match self.read(bytes) {
+            Ok((model, document)) => Ok(Imported { model, warnings: self.faults.warnings(&self.name), document }),
+            Err(problems) => Err(Report::from(problems)),
         }
-        if let Some(extension) = root.extensions_required.iter().find(|name| !HANDLED.contains(&name.as_str())) {
-            let what = format!("requires {extension}, which is not supported");
-            return Err(self.problem(codes::EXTENSION, what, remedy(extension)));
-        }
-        root.extensions_required.clear();
-        // The crate looks up the positions' accessor before it has checked its index.
-        let position = json::validation::Checked::Valid(json::mesh::Semantic::Positions);
-        let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-        let positions = primitives.filter_map(|primitive| primitive.attributes.get(&position));
-        if let Some(index) = positions.map(|i| i.value()).find(|&i| i >= root.accessors.len()) {
-            return Err(self.broken(format_args!("accessor {index} does not exist")));
-        }
-        // The crate does not check that an image has a source.
-        if let Some(index) = root.images.iter().position(|image| image.uri.is_none() && image.buffer_view.is_none()) {
-            return Err(self.broken(format_args!("image {index} has neither a uri nor a bufferView")));
-        }
-        let document =
-            gltf::Document::from_json(root).map_err(|error| self.broken(format_args!("not valid glTF: {error}")))?;
-        if document.nodes().len() > MAX_NODES {
-            let help = "join meshes that do not move against each other, and export the model again";
-            return Err(self.problem(codes::MODEL_LIMIT, format_args!("more than {MAX_NODES} nodes"), help));
-        }
-        let buffers = self.buffers(&document, blob)?;
-        let (mut nodes, roots) = self.nodes(&document)?;
-        let hidden = hidden(&document, &nodes);
+    }
+
+    fn read(&mut self, bytes: &[u8]) -> Outcome<(Model, Value)> {
+        let parts = glb::split(bytes, &mut self.faults).map_err(|fault| self.refused(&fault))?;
+        let mut root: Value = serde_json::from_slice(parts.json).map_err(|error| self.refused(&syntax(&error)))?;
+        check::document(&mut root, &mut self.faults);
+        self.extensions(&root);
+        self.sound()?;
+        let document = represent(&root).map_err(|fault| self.refused(&fault))?;
+        let (name, folder) = (self.name.clone(), self.folder.clone());
+        let sources = Sources { file: &name, folder: &folder, root: &root };
+        let buffers = sources.buffers(parts.bin, &mut self.faults).map_err(|problem| vec![problem])?;
+        data::check(&document, &buffers, &mut self.faults);
+        self.sound()?;
+        let (mut nodes, roots) = nodes::nodes(&document).map_err(|fault| self.refused(&fault))?;
+        let hidden = nodes::hidden(&document, &nodes);
         let mut meshes = self.meshes(&document, &buffers)?;
+        size::check(&nodes, &meshes, &mut self.faults);
+        self.sound()?;
         let (skins, morphs) = self.rest_pose_meshes(&document, &buffers, &mut nodes, &mut meshes)?;
-        Ok(Model {
+        size::check(&nodes, &meshes, &mut self.faults);
+        self.sound()?;
+        let images = sources.images(&buffers, &mut self.faults).map_err(|problem| vec![problem])?;
+        let model = Model {
             nodes,
             roots,
             meshes,
@@ -175,91 +151,29 @@ impl Reader {
             hidden,
             materials: document
                 .materials()
-                .map(|m| material::appearance(&m, &document, |what| self.warn(what)))
+                .map(|m| {
+                    let place = format!("materials[{}]", m.index().unwrap_or_default());
+                    material::appearance(&m, &document, |what| self.warn(&place, what))
+                })
                 .collect(),
-            images: self.images(&document, &buffers)?,
+            images: images.into_iter().map(Arc::new).collect(),
             cameras: document.cameras().map(|camera| self.camera(&camera)).collect(),
             lights: document.lights().into_iter().flatten().map(|light| punctual(&light)).collect(),
             animations: self.animations(&document, &buffers)?,
-        })
-    }
-
-    /// Bytes of a data URI or of a file beside the model.
-    fn uri(&self, uri: &str) -> Outcome<Vec<u8>> {
-        let source = gltf::buffer::Source::Uri(uri);
-        if uri.starts_with("data:") {
-            return gltf::buffer::Data::from_source(source, None)
-                .map(|data| data.0)
-                .map_err(|error| self.broken(format_args!("a data URI cannot be decoded: {error}")));
-        }
-        let path = paths::inside(&self.folder, &paths::percent_decoded(uri))?;
-        paths::read_limited(&path, MAX_FILE_BYTES)
-    }
-
-    fn buffers(&self, document: &gltf::Document, mut blob: Option<Vec<u8>>) -> Outcome<Vec<Vec<u8>>> {
-        document
-            .buffers()
-            .map(|buffer| {
-                let bytes = match buffer.source() {
-                    gltf::buffer::Source::Bin => {
-                        blob.take().ok_or_else(|| self.broken("its binary chunk is missing"))?
-                    }
-                    gltf::buffer::Source::Uri(uri) => self.uri(uri)?,
-                };
-                if bytes.len() < buffer.length() {
-                    let (has, says) = (bytes.len(), buffer.length());
-                    return Err(self.broken(format_args!("buffer {} has {has} bytes of {says}", buffer.index())));
-                }
-                Ok(bytes)
-            })
-            .collect()
-    }
-
-    fn nodes(&self, document: &gltf::Document) -> Outcome<(Vec<Node>, Vec<usize>)> {
-        let mut nodes: Vec<Node> = Vec::new();
-        for node in document.nodes() {
-            let local = matrix(node.transform())
-                .ok_or_else(|| self.broken(format_args!("the transform of node {} is not finite", node.index())))?;
-            nodes.push(Node {
-                name: node.name().map_or_else(|| format!("#{}", node.index()), str::to_owned),
-                parent: None,
-                children: node.children().map(|child| child.index()).collect(),
-                local,
-                world: local,
-                mesh: node.mesh().map(|mesh| mesh.index()),
-                camera: node.camera().map(|camera| camera.index()),
-                light: node.light().map(|light| light.index()),
-            });
-        }
-        for parent in 0..nodes.len() {
-            for child in nodes[parent].children.clone() {
-                if nodes[child].parent.replace(parent).is_some() || child == parent {
-                    let name = &nodes[child].name;
-                    let help = "give it one parent, copy it for the other, and export the model again";
-                    return Err(self.problem(codes::CYCLE, format!("node \"{name}\" has two parents"), help));
-                }
-            }
-        }
-        let scene = document.default_scene().or_else(|| document.scenes().next());
-        let roots: Vec<usize> = match scene {
-            Some(scene) => scene.nodes().map(|node| node.index()).collect(),
-            None => (0..nodes.len()).filter(|&i| nodes[i].parent.is_none()).collect(),
         };
-        // Every node has at most one parent, so nodes that no root reaches form a cycle (or belong to another scene).
-        let mut waiting: Vec<usize> = (0..nodes.len()).filter(|&i| nodes[i].parent.is_none()).collect();
-        let mut reached = 0;
-        while let Some(index) = waiting.pop() {
-            reached += 1;
-            if let Some(parent) = nodes[index].parent {
-                nodes[index].world = nodes[parent].world * nodes[index].local;
+        Ok((model, root))
+    }
+
+    /// Refuses required extensions that are not supported.
+    fn extensions(&mut self, root: &Value) {
+        for (index, name) in root["extensionsRequired"].as_array().into_iter().flatten().enumerate() {
+            let name = name.as_str().unwrap_or_default();
+            if !HANDLED.contains(&name) {
+                let what = format_args!("requires {name}, which is not supported");
+                let fault = Fault::at(Cause::Extension, format_args!("extensionsRequired[{index}]"), what);
+                self.faults.push(fault.remedy(remedy(name)));
             }
-            waiting.extend(&nodes[index].children);
         }
-        if reached < nodes.len() {
-            let help = "remove one of them from the cycle, and export the model again";
-            return Err(self.problem(codes::CYCLE, "some nodes are their own ancestors", help));
-        }
-        Ok((nodes, roots))
     }
 
     fn meshes(&mut self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Mesh>> {
@@ -269,19 +183,24 @@ impl Reader {
             let name = mesh.name().map_or_else(|| format!("mesh {}", mesh.index()), str::to_owned);
             let mut primitives = Vec::new();
             for primitive in mesh.primitives() {
+                let place = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
                 if !is_drawn(&primitive) {
-                    self.warn(format_args!(
-                        "\"{name}\" has points or lines, which are not drawn; a wire can stand for a line"
-                    ));
+                    let what = "has points or lines, which are not drawn; a wire can stand for a line";
+                    self.warn(&place, format_args!("\"{name}\" {what}"));
+                    continue;
+                }
+                if primitive.get(&gltf::Semantic::Positions).is_none() {
+                    self.warn(&place, format_args!("\"{name}\" has no positions: it is not drawn"));
                     continue;
                 }
                 let primitive = decode(&primitive, buffers, |_| Ok(()))
-                    .map_err(|what| self.broken(format_args!("mesh \"{name}\": {what}")))?;
+                    .map_err(|fault| self.refused(&fault.within(format_args!("{place} of \"{name}\""))))?;
                 triangles += primitive.indices.len() / 3;
                 primitives.push(primitive);
             }
             if triangles > MAX_TRIANGLES {
-                return Err(self.problem(codes::MODEL_LIMIT, format!("more than {MAX_TRIANGLES} triangles"), SIMPLIFY));
+                let what = format_args!("have more than {MAX_TRIANGLES} triangles");
+                return Err(self.refused(&Fault::at(Cause::Limit, "meshes", what)));
             }
             meshes.push(Mesh { name, primitives });
         }
@@ -298,7 +217,7 @@ impl Reader {
         meshes: &mut Vec<Mesh>,
     ) -> Outcome<(Vec<Skin>, Vec<Morph>)> {
         let channels = document.animations().flat_map(|animation| animation.channels());
-        let morphing: Vec<usize> = channels
+        let morphing: BTreeSet<usize> = channels
             .filter(|channel| channel.target().property() == gltf::animation::Property::MorphTargetWeights)
             .map(|channel| channel.target().node().index())
             .collect();
@@ -310,23 +229,22 @@ impl Reader {
                 continue;
             }
             if keyed && mesh.primitives().any(|p| p.morph_targets().count() != primitive::targets(&node)) {
-                let what =
-                    format!("node \"{}\": its primitives differ in their morph targets", nodes[node.index()].name);
-                return Err(self.broken(what));
+                let what = format_args!("the primitives of \"{}\" differ in them", nodes[node.index()].name);
+                let place = format_args!("meshes[{}].primitives.targets", mesh.index());
+                return Err(self.refused(&Fault::at(Cause::Count, place, what)));
             }
             let primitives = mesh.primitives().filter(is_drawn).map(|primitive| {
                 decode(&primitive, buffers, |out| deform::deform(&node, &primitive, nodes, buffers, out))
             });
             let name = nodes[node.index()].name.clone();
-            let primitives: Vec<Primitive> = primitives
-                .collect::<Result<_, _>>()
-                .map_err(|what| self.broken(format_args!("node \"{name}\": {what}")))?;
+            let place = format!("nodes[{}] \"{name}\"", node.index());
+            let broken = |fault: Fault| self.refused(&fault.within(&place));
+            let primitives: Vec<Primitive> = primitives.collect::<Result<_, _>>().map_err(broken)?;
             triangles += primitives.iter().map(|p| p.indices.len() / 3).sum::<usize>();
             if triangles > MAX_TRIANGLES {
-                let what = format!("more than {MAX_TRIANGLES} triangles in skins");
-                return Err(self.problem(codes::MODEL_LIMIT, what, SIMPLIFY));
+                let what = format_args!("have more than {MAX_TRIANGLES} triangles in skins and morphed meshes");
+                return Err(self.refused(&Fault::at(Cause::Limit, "nodes", what)));
             }
-            let broken = |what| self.broken(format_args!("node \"{name}\": {what}"));
             let bound = mesh.primitives().filter(is_drawn).map(|primitive| {
                 decode(&primitive, buffers, |out| deform::bind(&node, keyed, &primitive, buffers, out))
             });
@@ -346,49 +264,16 @@ impl Reader {
         Ok((skins, morphs))
     }
 
-    fn images(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Arc<Image>>> {
-        let mut pixels = 0;
-        let mut images = Vec::new();
-        for source in document.images() {
-            let index = source.index();
-            let bytes = match source.source() {
-                gltf::image::Source::View { view, .. } => {
-                    let range = view.offset()..view.offset().saturating_add(view.length());
-                    let bytes = buffers.get(view.buffer().index()).and_then(|buffer| buffer.get(range));
-                    bytes.ok_or_else(|| self.broken(format_args!("image {index} lies outside its buffer")))?.to_vec()
-                }
-                gltf::image::Source::Uri { uri, .. } => self.uri(uri)?,
-            };
-            let undecodable = |error: image::ImageError| {
-                let help = "PNG and JPEG are read; convert others: gltf-transform png in.glb out.glb";
-                self.problem(codes::IMAGE, format_args!("image {index} cannot be decoded: {error}"), help)
-            };
-            let open = || image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
-            let reader = open().map_err(|error| undecodable(error.into()))?;
-            // Check the size first: a small file can claim an image that fills the memory.
-            let (width, height) = reader.into_dimensions().map_err(undecodable)?;
-            let size = u64::from(width) * u64::from(height);
-            pixels += size;
-            if size > MAX_IMAGE_PIXELS || pixels > MAX_PIXELS {
-                let what =
-                    format!("image {index} is {width} × {height}; the limit is 8192 × 8192, four of them in all");
-                let help = "gltf-transform resize --width 4096 --height 4096 in.glb out.glb";
-                return Err(self.problem(codes::MODEL_LIMIT, what, help));
-            }
-            let decoded = open().map_err(|error| undecodable(error.into()))?.decode().map_err(undecodable)?;
-            images.push(Arc::new(Image { width, height, rgba: decoded.into_rgba8().into_raw() }));
-        }
-        Ok(images)
-    }
-
     fn animations(&self, document: &gltf::Document, buffers: &[Vec<u8>]) -> Outcome<Vec<Animation>> {
         let mut animations = Vec::new();
         for source in document.animations() {
             let name = source.name().map_or_else(|| format!("#{}", source.index()), str::to_owned);
             let mut channels = Vec::new();
-            for channel in source.channels() {
+            for (index, channel) in source.channels().enumerate() {
+                let place =
+                    format_args!("animations[{}].channels[{index}] (animation \"{name}\")", source.index()).to_string();
                 let decoded = animation::channel(&channel, buffers);
-                channels.push(decoded.map_err(|what| self.broken(format_args!("animation \"{name}\": {what}")))?);
+                channels.push(decoded.map_err(|fault| self.refused(&fault.within(place)))?);
             }
             animations.push(Animation { name, channels });
         }
@@ -398,57 +283,61 @@ impl Reader {
     fn camera(&mut self, camera: &gltf::Camera) -> Camera {
         match camera.projection() {
             gltf::camera::Projection::Perspective(lens) => {
-                Camera { fovy: f64::from(lens.yfov()), aspect: lens.aspect_ratio().map(f64::from) }
+                let fovy = f64::from(lens.yfov()).clamp(LEAST_FOV, GREATEST_FOV);
+                Camera {
+                    fovy,
+                    aspect: lens.aspect_ratio().map(|x| f64::from(x).clamp(LEAST_ASPECT, 1.0 / LEAST_ASPECT)),
+                }
             }
             gltf::camera::Projection::Orthographic(_) => {
                 /// Field of view that approximates a parallel projection.
                 const NARROW: f64 = 0.2;
-                self.warn("an orthographic camera is shown as a narrow perspective one");
+                let place = format!("cameras[{}]", camera.index());
+                self.warn(place, "an orthographic camera is shown as a narrow perspective one");
                 Camera { fovy: NARROW, aspect: None }
             }
         }
     }
 }
 
-/// Nodes hidden by KHR_node_visibility, and all nodes below them.
-fn hidden(document: &gltf::Document, nodes: &[Node]) -> Vec<usize> {
-    let visible = |node: &gltf::Node| node.extension_value("KHR_node_visibility")?.get("visible")?.as_bool();
-    let mut open: Vec<usize> = document.nodes().filter(|n| visible(n) == Some(false)).map(|n| n.index()).collect();
-    let mut hidden = Vec::new();
-    // Nodes form a forest, so none is visited more often than it has hidden ancestors; visited ones are not opened
-    // again.
-    let mut seen = vec![false; nodes.len()];
-    while let Some(index) = open.pop() {
-        if !std::mem::replace(&mut seen[index], true) {
-            hidden.push(index);
-            open.extend(&nodes[index].children);
-        }
+/// What is wrong with a text that is not JSON.
+fn syntax(error: &serde_json::Error) -> Fault {
+    let at = format!("line {}, column {}", error.line(), error.column());
+    let text = error.to_string();
+    let what = text.split(" at line ").next().unwrap_or_default();
+    match what {
+        _ if error.is_eof() => Fault::new(Cause::Truncated, format_args!("its JSON ends early, at {at}")),
+        "number out of range" => Fault::new(Cause::NotFinite, format_args!("a number at {at} is infinite")),
+        _ => Fault::new(Cause::Json, format_args!("is not JSON: {what} at {at}")),
     }
-    hidden.sort_unstable();
-    hidden
 }
 
-/// The transform in double precision; `None` where it is not finite.
-fn matrix(transform: gltf::scene::Transform) -> Option<DMat4> {
-    let matrix = match transform {
-        gltf::scene::Transform::Matrix { matrix } => {
-            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
+/// The document for the `gltf` crate. Its own checks come last: they hold what the crate relies on, and should find nothing
+/// that [`check`] lets through.
+fn represent(root: &Value) -> Result<gltf::Document, Fault> {
+    use json::validation::{Error, Validate};
+    let mut typed: json::Root = json::deserialize::from_value(root.clone())
+        .map_err(|error| Fault::new(Cause::WrongType, format_args!("its document cannot be read: {error}")))?;
+    // The crate knows fewer extensions than are handled here.
+    typed.extensions_required.clear();
+    // Names that the standard does not know are ignored, with a warning.
+    for primitive in typed.meshes.iter_mut().flat_map(|mesh| &mut mesh.primitives) {
+        primitive.attributes.retain(|semantic, _| matches!(semantic, json::validation::Checked::Valid(_)));
+    }
+    let mut found = None;
+    typed.validate(&typed, json::Path::new, &mut |path: &dyn Fn() -> json::Path, error: Error| {
+        let path = path().to_string();
+        // Legal: accessors without a view, whose elements are zeros, and primitives without positions, which are not drawn.
+        let zeros = path.starts_with("accessors[") && path.ends_with(".bufferView");
+        let nowhere = path.starts_with("meshes[") && path.ends_with("[\"POSITION\"]");
+        if !(error == Error::Missing && (zeros || nowhere)) && found.is_none() {
+            found = Some(Fault::at(Cause::Range, path, error));
         }
-        gltf::scene::Transform::Decomposed { translation, rotation, scale } => {
-            // Composed in double precision: the crate's quaternions are single precision and not quite unit.
-            let quaternion = DQuat::from_array(rotation.map(f64::from));
-            let length = quaternion.length();
-            if !(length.is_finite() && length > 0.0) {
-                return None;
-            }
-            DMat4::from_scale_rotation_translation(
-                DVec3::from(scale.map(f64::from)),
-                quaternion * (1.0 / length),
-                DVec3::from(translation.map(f64::from)),
-            )
-        }
-    };
-    matrix.is_finite().then_some(matrix)
+    });
+    match found {
+        Some(fault) => Err(fault),
+        None => Ok(gltf::Document::from_json_without_validation(typed)),
+    }
 }
 
 fn punctual(light: &gltf::khr_lights_punctual::Light) -> Light {
@@ -464,5 +353,16 @@ fn punctual(light: &gltf::khr_lights_punctual::Light) -> Light {
         color: DVec3::from(light.color().map(f64::from)),
         intensity: f64::from(light.intensity()),
         range: light.range().map_or(f64::INFINITY, f64::from),
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// Reads the bytes of a model's file, in a folder without others.
+    pub fn read(bytes: &[u8]) -> Result<Imported, Report> {
+        let folder = PathBuf::from("no/such/folder");
+        Reader { name: "model.glb".into(), folder, faults: Faults::default() }.import(bytes)
     }
 }

@@ -25,17 +25,17 @@ pub fn appearance(material: &gltf::Material, document: &gltf::Document, note: im
     let mut textures = Textures { material, document, name: &name, note };
     let surface = material.pbr_metallic_roughness();
     let strength = material.emissive_strength().unwrap_or(1.0);
-    let base_color_texture = surface.base_color_texture().map(|i| textures.info(&i));
-    let metallic_roughness_texture = surface.metallic_roughness_texture().map(|i| textures.info(&i));
-    let emissive_texture = material.emissive_texture().map(|i| textures.info(&i));
+    let base_color_texture = surface.base_color_texture().and_then(|i| textures.info(&i));
+    let metallic_roughness_texture = surface.metallic_roughness_texture().and_then(|i| textures.info(&i));
+    let emissive_texture = material.emissive_texture().and_then(|i| textures.info(&i));
     let normal_texture = material
         .normal_texture()
         .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.scale()))
-        .map(|(texture, scale)| ScaledTexture { texture, scale });
+        .and_then(|(texture, scale)| Some(ScaledTexture { texture: texture?, scale }));
     let occlusion_texture = material
         .occlusion_texture()
         .map(|t| (textures.texture(t.texture(), t.tex_coord(), t.extension_value(TEXTURE_TRANSFORM)), t.strength()))
-        .map(|(texture, scale)| ScaledTexture { texture, scale });
+        .and_then(|(texture, scale)| Some(ScaledTexture { texture: texture?, scale }));
     let details = textures.details();
     for extension in IGNORED.iter().filter(|extension| material.extension_value(extension).is_some()) {
         (textures.note)(format!("material \"{name}\": {extension} is not drawn"));
@@ -108,21 +108,26 @@ struct Textures<'a, N> {
 
 impl<N: FnMut(String)> Textures<'_, N> {
     /// A texture on a set of coordinates, with `transform` as KHR_texture_transform.
-    fn texture(&mut self, texture: gltf::Texture, set: u32, transform: Option<&Value>) -> TextureUse {
+    fn texture(&mut self, texture: gltf::Texture, set: u32, transform: Option<&Value>) -> Option<TextureUse> {
+        let Some(image) = texture.source() else {
+            let (name, index) = (self.name, texture.index());
+            (self.note)(format!("material \"{name}\": textures[{index}] has no PNG or JPEG; it is not drawn"));
+            return None;
+        };
         let set = transform.and_then(|t| t.get("texCoord")?.as_u64()).unwrap_or(u64::from(set));
         if set > 1 {
             let name = self.name;
             (self.note)(format!("material \"{name}\" uses texture coordinates {set}; the second set is drawn instead"));
         }
-        TextureUse {
-            image: texture.source().index(),
+        Some(TextureUse {
+            image: image.index(),
             set: set.min(1) as usize,
             transform: transform.map_or(TextureUse::of(0).transform, rows),
             sampler: sampler(&texture.sampler()),
-        }
+        })
     }
 
-    fn info(&mut self, info: &gltf::texture::Info) -> TextureUse {
+    fn info(&mut self, info: &gltf::texture::Info) -> Option<TextureUse> {
         self.texture(info.texture(), info.tex_coord(), info.extension_value(TEXTURE_TRANSFORM))
     }
 
@@ -133,7 +138,7 @@ impl<N: FnMut(String)> Textures<'_, N> {
         let set = info.get("texCoord").and_then(Value::as_u64).unwrap_or(0) as u32;
         let moved = info.get("extensions").and_then(|e| e.get(TEXTURE_TRANSFORM));
         let scale = info.get("scale").and_then(Value::as_f64).unwrap_or(1.0) as f32;
-        Some(ScaledTexture { texture: self.texture(self.document.textures().nth(index)?, set, moved), scale })
+        Some(ScaledTexture { texture: self.texture(self.document.textures().nth(index)?, set, moved)?, scale })
     }
 
     /// The textures of all extensions.

@@ -3,16 +3,26 @@
 mod accessor;
 mod animation;
 mod appearance;
+mod check;
+mod data;
 mod deform;
+mod fault;
 mod flat;
+mod glb;
 mod import;
 mod material;
 mod mesh;
+mod nodes;
 mod primitive;
 mod scene;
+mod size;
+mod sources;
+#[cfg(test)]
+mod tests;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use appearance::{AlphaMode, Appearance, Details, Levels, Sampler, ScaledTexture, TextureUse, Wrap};
-pub use import::{EXPORT_AGAIN, Imported, MAX_FILE_BYTES, import, load};
+pub use import::{Imported, import, load};
 pub use mesh::{Influences, Mesh, Morph, MorphTarget, Primitive, Skin};
 pub use scene::{Camera, Image, Light, LightKind, Model, Node};
+pub use sources::MAX_FILE_BYTES;

@@ -4,8 +4,9 @@ use gltf::Semantic;
 use gltf::accessor::Dimensions::{Vec2, Vec3, Vec4};
 use gltf::mesh::Mode;
 
+use super::fault::{Cause, Fault};
 use super::mesh::Primitive;
-use super::{accessor, flat};
+use super::{accessor, flat, size};
 
 /// Most morph targets of one primitive.
 pub const MAX_TARGETS: usize = 256;
@@ -21,7 +22,8 @@ pub fn targets(node: &gltf::Node) -> usize {
     first.map_or(0, |primitive| primitive.morph_targets().take(MAX_TARGETS).count())
 }
 
-/// Decodes a primitive; `deform` can change it before flat normals are made.
+/// Decodes a primitive; `deform` can change it before flat normals are made. Without positions it is empty (glTF 2.0, section
+/// 3.7.2.1: it is not drawn).
 ///
 /// # Errors
 /// An accessor is invalid, or `deform` fails.
@@ -30,15 +32,20 @@ pub fn decode(
     buffers: &[Vec<u8>],
     deform: impl FnOnce(&mut Primitive) -> Result<(), accessor::ModelError>,
 ) -> Result<Primitive, accessor::ModelError> {
-    let positions = primitive.get(&Semantic::Positions).ok_or("a primitive has no positions")?;
-    let positions: Vec<[f32; 3]> = accessor::vectors(&positions, buffers, &[Vec3], 0.0)?;
+    let Some(source) = primitive.get(&Semantic::Positions) else { return Ok(Primitive::default()) };
+    let positions: Vec<[f32; 3]> = accessor::vectors(&source, buffers, &[Vec3], 0.0)?;
+    size::positions(&positions, source.index())?;
     let list = match primitive.indices() {
         Some(indices) => accessor::indices(&indices, buffers, positions.len())?,
         None => (0..positions.len() as u32).collect(),
     };
     let count = positions.len();
     let same = |length: usize, what: &str| {
-        if length == count { Ok(()) } else { Err(format!("{what} and positions differ in number")) }
+        if length == count {
+            Ok(())
+        } else {
+            Err(Fault::new(Cause::Count, format_args!("{what} and positions differ in number")))
+        }
     };
     let mut out = Primitive { indices: triangles(primitive.mode(), &list), ..Primitive::default() };
     out.material = primitive.material().index();
@@ -65,9 +72,7 @@ pub fn decode(
     }
     out.positions = positions;
     deform(&mut out)?;
-    if out.positions.iter().flatten().any(|x| !x.is_finite()) {
-        return Err("a skin or a morph target makes positions that are not finite".into());
-    }
+    size::positions(&out.positions, source.index())?;
     if out.normals.is_empty() {
         flat::flatten(&mut out);
     }

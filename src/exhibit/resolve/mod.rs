@@ -77,7 +77,7 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
         problem
     };
     let model_path = paths::inside(folder, &sidecar.model).map_err(|problem| alone(vec![placed(problem)]))?;
-    let Imported { mut model, warnings } =
+    let Imported { mut model, warnings, .. } =
         import(&model_path).map_err(|report| alone(report.diagnostics.into_iter().map(placed).collect()))?;
     add_path_nodes(&mut model, &sidecar);
     let own = OwnTimbres::read(folder);
@@ -98,7 +98,7 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
 /// # Errors
 /// All problems of the model.
 pub fn load_model(model_path: &Path) -> Result<Exhibit, Report> {
-    let Imported { model, warnings } = import(model_path)?;
+    let Imported { model, warnings, .. } = import(model_path)?;
     let id = model_path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let folder = model_path.parent().map(PathBuf::from).unwrap_or_default();
     Ok(Exhibit { id, folder, warnings, ..Exhibit::from_model(model) })

@@ -380,3 +380,33 @@ fn no_physics_however_wrong_stops_the_import() {
     println!("{taken} taken over, {refused} refused");
     assert!(taken > 50, "{taken} taken over");
 }
+
+#[test]
+fn sixty_thousand_nodes_are_proposed_in_linear_time() {
+    /// Processor time, s; comparing every node with every other took minutes.
+    const LIMIT: f64 = 4.0;
+    let positions: Vec<u8> =
+        [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+    for (length, chains) in [(1, 60_000), (1000, 60)] {
+        let node = |i: usize| match (i + 1) % length {
+            0 => json!({ "name": format!("n{i}"), "mesh": 0 }),
+            _ => json!({ "name": format!("n{i}"), "children": [i + 1] }),
+        };
+        let model = json!({
+            "asset": { "version": "2.0" },
+            "nodes": (0..length * chains).map(node).collect::<Vec<_>>(),
+            "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+            "accessors": [{
+                "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0],
+            }],
+            "bufferViews": [{ "buffer": 0, "byteLength": 36 }],
+            "buffers": [{ "byteLength": 36 }],
+        });
+        let start = cpu_time::ThreadTime::now();
+        let (_folder, made) = made(&assemble(model.to_string().into_bytes(), positions.clone()));
+        let took = start.elapsed().as_secs_f64();
+        assert!(took < LIMIT, "{length} × {chains}: {took} s");
+        let bodies = sidecar(&made).matches("[[body]]").count();
+        assert!((1..=256).contains(&bodies), "{length} × {chains}: {bodies} bodies");
+    }
+}
