@@ -85,7 +85,9 @@ pub struct Reference<'a> {
     materials: Materials<'a>,
     lines: Lines,
     table: AlbedoTable,
+    /// Wide lights, then lamps and punctual lights.
     lights: Vec<Light>,
+    wide_lights: usize,
     /// Number of those that do not move; they come first.
     fixed_lights: usize,
     sky: Option<usize>,
@@ -111,9 +113,12 @@ impl<'a> Reference<'a> {
             lights.push(Light::Sky(Sky::new(environment, lighting.env_intensity)));
         } else {
             lights.extend(walls::fields(&gallery).into_iter().map(|field| Light::Rectangle(Rectangle::new(field))));
-            lights.extend(gallery.lamps.map(Light::Lamp));
         }
         lights.extend(lighting.area_light.map(|area| Light::Rectangle(Rectangle::new(area))));
+        let wide_lights = lights.len();
+        if lighting.background.is_none() {
+            lights.extend(gallery.lamps.map(Light::Lamp));
+        }
         Ok(Self {
             exhibit,
             lighting: lighting.clone(),
@@ -123,6 +128,7 @@ impl<'a> Reference<'a> {
             lines: Lines::new(exhibit),
             table: AlbedoTable::new(),
             fixed_lights: lights.len(),
+            wide_lights,
             lights,
             sky,
         })
@@ -172,6 +178,7 @@ impl<'a> Reference<'a> {
             world: &World::new(&self.scene, vertices, &rods, &self.materials),
             gallery,
             lights: &self.lights,
+            wide: self.wide_lights,
             sky: self.sky,
             background: self.lighting.background.unwrap_or_default(),
             table: &self.table,

@@ -13,6 +13,8 @@
 //! vertex where its direction was drawn, so light behind them is found both ways too. Lamps and the scenario's
 //! rectangle are not seen by the camera and hide nothing, as in the live picture.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
 use super::super::gallery::Gallery;
@@ -40,6 +42,8 @@ pub(super) struct Stage<'a> {
     pub gallery: Option<&'a Gallery>,
     /// The fields of the gallery come first, in its order.
     pub lights: &'a [Light],
+    /// Number of wide lights, which come before lamps and punctual lights: rectangles and the sky.
+    pub wide: usize,
     /// Index of the sky among the lights.
     pub sky: Option<usize>,
     /// What the camera sees where there is nothing.
@@ -115,9 +119,21 @@ impl Stage<'_> {
                 }
             };
             let Met { point, bsdf, through, .. } = met;
-            let chances = self.chances(point, &bsdf);
             let [choice, u, v, straight] = sequence.next();
-            sum += carried * self.direct(point, &bsdf, &chances, [choice, u, v]);
+            let chances = if last.is_none() {
+                // What the camera sees has a sample of each kind of light.
+                let groups = [0..self.wide, self.wide..self.lights.len()];
+                let chances = self.chances(point, &bsdf, &groups);
+                let [a, b, c, _] = sequence.next();
+                sum += carried * self.direct(point, &bsdf, &chances, &groups[0], [a, b, c]);
+                sum += carried * self.direct(point, &bsdf, &chances, &groups[1], [choice, u, v]);
+                chances
+            } else {
+                let all = [0..self.lights.len()];
+                let chances = self.chances(point, &bsdf, &all);
+                sum += carried * self.direct(point, &bsdf, &chances, &all[0], [choice, u, v]);
+                chances
+            };
             if let Some(through) = through {
                 let most = through.max_element();
                 let odds = (most / (most + bsdf.albedo).max(1e-6)).clamp(THROUGH[0], THROUGH[1]);
@@ -213,24 +229,34 @@ impl Stage<'_> {
         sky.radiance(direction) * last.weight(index, sky.density(direction))
     }
 
-    /// Probabilities with which the lights are chosen at a point; all 0 where it is dark.
-    fn chances(&self, point: Vec3, bsdf: &Bsdf) -> [f32; MAX_LIGHTS] {
+    /// Probabilities with which the lights are chosen at a point, each group by itself; 0 where it is dark.
+    fn chances(&self, point: Vec3, bsdf: &Bsdf, groups: &[Range<usize>]) -> [f32; MAX_LIGHTS] {
         let mut chances = [0.0; MAX_LIGHTS];
-        let mut sum = 0.0;
-        for (chance, light) in chances.iter_mut().zip(self.lights) {
-            *chance = light.estimate(point, bsdf.facing);
-            sum += *chance;
-        }
-        if sum > 0.0 {
-            chances.iter_mut().for_each(|chance| *chance /= sum);
+        for group in groups {
+            let chances = &mut chances[group.clone()];
+            let mut sum = 0.0;
+            for (chance, light) in chances.iter_mut().zip(&self.lights[group.clone()]) {
+                *chance = light.estimate(point, bsdf.facing);
+                sum += *chance;
+            }
+            if sum > 0.0 {
+                chances.iter_mut().for_each(|chance| *chance /= sum);
+            }
         }
         chances
     }
 
-    /// Reflected light of one point of one light.
-    fn direct(&self, point: Vec3, bsdf: &Bsdf, chances: &[f32; MAX_LIGHTS], [choice, u, v]: [f32; 3]) -> Vec3 {
+    /// Reflected light of one point of one light of a group.
+    fn direct(
+        &self,
+        point: Vec3,
+        bsdf: &Bsdf,
+        chances: &[f32; MAX_LIGHTS],
+        group: &Range<usize>,
+        [choice, u, v]: [f32; 3],
+    ) -> Vec3 {
         let mut before = 0.0;
-        for (light, &chance) in self.lights.iter().zip(chances) {
+        for (light, &chance) in self.lights[group.clone()].iter().zip(&chances[group.clone()]) {
             if choice >= before + chance {
                 before += chance;
                 continue;

@@ -194,6 +194,7 @@ fn the_empty_gallery_agrees_with_its_radiosity() {
         world: &World::new(&Scene::default(), Vec::new(), &[], &materials),
         gallery: Some(&gallery),
         lights: &lights,
+        wide: gallery.fields.len(),
         sky: None,
         background: Vec3::ZERO,
         table: &AlbedoTable::new(),
