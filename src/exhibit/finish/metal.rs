@@ -14,12 +14,10 @@
 use super::maps::Structure;
 use super::noise::{Field, Marks};
 
-/// Neutral metals keep their hue.
-const NEUTRAL: [f32; 3] = [1.0, 1.0, 1.0];
 /// Copper and its alloys darken to brown.
 pub const COPPERY: [f32; 3] = [0.8, 1.0, 1.25];
 /// Metals without a hue.
-pub const GREY: [f32; 3] = NEUTRAL;
+pub const GREY: [f32; 3] = [1.0; 3];
 
 /// Brushed along u; its tile is about 0.2 m × 0.1 m.
 pub fn brushed(seed: u64, tint: [f32; 3]) -> Structure {

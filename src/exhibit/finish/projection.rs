@@ -17,7 +17,7 @@
 //! 26° of the grain show end grain, and become a primitive of their own; the others are seen from a side, which keeps the end grain of
 //! round pieces small.
 //!
-//! Tangents follow glTF 2.0, 3.7.2.1: w n × t points to where v falls.
+//! Tangents follow glTF 2.0, 3.7.2.1: t points to where u grows, and w n × t to where v falls.
 
 use soffio_math::DVec3;
 
@@ -112,7 +112,8 @@ fn plate(primitive: &Primitive, places: &[DVec3], along: DVec3, normal: DVec3, l
         let depth = p.dot(normal);
         [((p.dot(along) + depth) / length + u) as f32, ((p.dot(across) + depth) / width + v) as f32]
     }));
-    out.tangents = (0..places.len()).map(|i| tangent(primitive, i, along, across, laying.scale)).collect();
+    out.tangents =
+        (0..places.len()).map(|i| tangent(primitive, i, [along + normal, across + normal], laying.scale)).collect();
     out
 }
 
@@ -141,7 +142,7 @@ fn boxed(
             let [along, across] = plane(axis, grain);
             let p = places[index as usize];
             out.uvs.push([(p[along] / tile[0] + offset[0]) as f32, (p[across] / tile[1] + offset[1]) as f32]);
-            out.tangents.push(tangent(primitive, index as usize, DVec3::AXES[along], DVec3::AXES[across], scale));
+            out.tangents.push(tangent(primitive, index as usize, [along, across].map(|k| DVec3::AXES[k]), scale));
         }
         out
     };
@@ -213,14 +214,15 @@ impl Part {
     }
 }
 
-/// The tangent of a vertex along u, perpendicular to its normal, and the sign with which n × t points against v.
-fn tangent(primitive: &Primitive, index: usize, along: DVec3, across: DVec3, scale: DVec3) -> [f32; 4] {
+/// The tangent of a vertex: the direction in its surface along which v stays and u grows, g_v × n or against it, where g are the
+/// gradients of u and v. Then the sign with which n × t points to where v falls.
+fn tangent(primitive: &Primitive, index: usize, [grow_u, grow_v]: [DVec3; 2], scale: DVec3) -> [f32; 4] {
     let normal = primitive.normals.get(index).map_or(DVec3::Y, |n| DVec3::from(n.map(f64::from)));
-    // Directions of the piece in the frame of the node.
-    let along = along / scale;
-    let flat = along - normal * along.dot(normal);
-    let t = flat.try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
-    let hand = if normal.cross(t).dot(across / scale) > 0.0 { -1.0 } else { 1.0 };
+    // The gradients over positions in the frame of the node.
+    let [grow_u, grow_v] = [grow_u * scale, grow_v * scale];
+    let still = grow_v.cross(normal).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+    let t = if still.dot(grow_u) < 0.0 { -still } else { still };
+    let hand = if normal.cross(t).dot(grow_v) > 0.0 { -1.0 } else { 1.0 };
     let [x, y, z] = t.as_vec3().to_array();
     [x, y, z, hand]
 }
