@@ -18,8 +18,8 @@ use super::path::Stage;
 use super::sequence::Sobol;
 use super::world::World;
 use super::{Environment, Reference, Settings, walls};
-use soffio_exhibit::model::{Appearance, Primitive};
 use soffio_exhibit::Exhibit;
+use soffio_exhibit::model::{Appearance, Primitive};
 
 /// Paint without gloss.
 fn matte(grey: f32) -> Appearance {
