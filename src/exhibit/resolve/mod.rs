@@ -34,6 +34,7 @@ use super::bodies::Body;
 use super::diagnostic::{Diagnostic, Report, quoted};
 use super::exhibit::Exhibit;
 use super::finish::{Choice, dress};
+use super::light::LightRig;
 use super::model::{Imported, Model, import};
 use super::own_timbres::OwnTimbres;
 use super::paths::SIDECAR;
