@@ -132,7 +132,7 @@ impl<'a> Check<'a> {
     fn fits(&mut self, place: &str, part: &str, view: usize, offset: usize, [stride, size, count, unit]: [usize; 4]) {
         let found = &self.list("bufferViews")[view];
         let (start, length) = (whole(found, "byteOffset").unwrap_or(0), whole(found, "byteLength").unwrap_or(0));
-        if offset % unit != 0 || start.saturating_add(offset) % unit != 0 {
+        if !offset.is_multiple_of(unit) || !start.saturating_add(offset).is_multiple_of(unit) {
             let at = start.saturating_add(offset);
             let what = format_args!("is {offset}, at byte {at} of the buffer; it must be at a multiple of {unit}");
             self.faults.add(Cause::Misaligned, format_args!("{place}{part}.byteOffset"), what);
