@@ -264,6 +264,7 @@ fn cases() -> Vec<Case> {
         one("/images/0", json!({ "uri": "data:" }), Cause::Uri, "images[0].uri"),
         one("/nodes/0/translation", json!([0, 2000, 0]), Cause::Size, "\"Body\""),
         one("/accessors/8/count", json!(20_000_000), Cause::Count, "targets[0].POSITION"),
+        one("/meshes/0/primitives/0/mode", json!(9), Cause::Range, "primitives[0].mode"),
     ]
 }
 
@@ -333,6 +334,9 @@ fn places_and_scales_that_a_museum_cannot_hold_are_refused_with_the_node_s_name(
     }
     let report = changed(&[("/nodes/2/translation", json!([1.1 * size::MAX_DISTANCE, 0, 0]))]).expect_err("too far");
     assert!(report.has(codes::MODEL_SIZE), "{report}");
+    let glaring = ("/extensions/KHR_lights_punctual/lights/0/intensity", json!(1e38));
+    let report = changed(&[glaring]).expect_err("too bright");
+    assert!(report.has(codes::MODEL_SIZE) && report.diagnostics[0].message.contains("lights[0].intensity"), "{report}");
     let enlarged = [("/nodes/0/skin", Value::Null), ("/nodes/0/scale", json!([1500, 1, 1]))];
     assert!(changed(&enlarged).expect_err("a mesh of 1.5 km").to_text().contains("the mesh of node"));
 }

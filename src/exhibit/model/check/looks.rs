@@ -4,10 +4,17 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use super::super::fault::Cause;
+use super::super::fault::{Cause, Fault};
 use super::buffers::Use;
 use super::tables::{GREATEST_FOV, LEAST_FOV, PUNCTUAL};
 use super::{Check, whole};
+
+/// Greatest intensity of a light, cd or lx: ten thousand times full sunlight, which has 10⁵ lx.
+const MAX_INTENSITY: f64 = 1e9;
+/// Greatest factor of an emitted colour; the brightest lamps are some 10⁷ times as bright as white paper in a room.
+const MAX_EMISSION: f64 = 1e9;
+/// Remedy for both.
+const DIM: &str = "give it the brightness of a real lamp in the program that made the model, and export again";
 
 /// Every texture reference below a value: its path and its object.
 fn textures<'v>(value: &'v Value, place: &str, found: &mut Vec<(String, &'v Value)>) {
@@ -38,6 +45,14 @@ impl Check<'_> {
             if let Some(ior) = ior.filter(|ior| *ior > 0.0 && *ior < 1.0) {
                 let place = format!("materials[{index}].extensions.KHR_materials_ior.ior");
                 self.faults.add(Cause::Range, place, format_args!("is {ior}; it must be 0, or at least 1"));
+            }
+        }
+        for (index, material) in self.list("materials").iter().enumerate() {
+            let strength = material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].as_f64();
+            if let Some(strength) = strength.filter(|strength| *strength > MAX_EMISSION) {
+                let place = format!("materials[{index}].extensions.KHR_materials_emissive_strength.emissiveStrength");
+                let what = format_args!("is {strength:e}; the limit is {MAX_EMISSION:e}");
+                self.faults.push(Fault::at(Cause::Size, place, what).remedy(DIM));
             }
         }
         for (m, mesh) in self.list("meshes").iter().enumerate() {
@@ -81,6 +96,10 @@ impl Check<'_> {
     }
 
     fn light(&mut self, light: &Value, place: &str) {
+        if let Some(intensity) = light["intensity"].as_f64().filter(|intensity| *intensity > MAX_INTENSITY) {
+            let what = format_args!("is {intensity:e}; a light has at most {MAX_INTENSITY:e} cd or lx");
+            self.faults.push(Fault::at(Cause::Size, format_args!("{place}.intensity"), what).remedy(DIM));
+        }
         if light["type"] != "spot" {
             return;
         }
