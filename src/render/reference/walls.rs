@@ -8,7 +8,8 @@ use glam::{Vec2, Vec3};
 
 use super::super::AreaLight;
 use super::super::gallery::{FLOOR_ALBEDO, Face, Gallery, WALL_ALBEDO};
-use super::bsdf::{AlbedoTable, Bsdf};
+use super::bsdf::Bsdf;
+use super::gloss::AlbedoTable;
 
 /// Perceptual roughness of the floor's varnish.
 const FLOOR_ROUGHNESS: f32 = 0.42;
@@ -130,7 +131,18 @@ fn pixel_noise(x: f32, y: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use std::f32::consts::PI;
+
+    use super::super::super::gallery::FACES;
+    use super::super::super::radiosity::polygon_factor;
+    use super::super::super::scene::Scene;
+    use super::super::lights::{Light, Rectangle};
+    use super::super::material::Materials;
+    use super::super::path::Stage;
+    use super::super::sequence::Sobol;
+    use super::super::world::World;
     use super::*;
+    use soffio_exhibit::Exhibit;
 
     #[test]
     fn the_numbers_are_those_of_the_shader() {
@@ -160,5 +172,112 @@ mod tests {
         let count = 100_000;
         let mean = (0..count).map(|i| boards(i as f32 * 28.0 / count as f32 - 14.0)).sum::<f32>() / count as f32;
         assert!((mean - 1.0 + GROOVE_SHADE * GROOVE / BOARD).abs() < TOLERANCE, "{mean}");
+    }
+
+    /// Radiosities of the gallery's faces in `SIDE` × `SIDE` patches each: point to patch form factors, Jacobi iteration.
+    /// The floor is matte, as its varnish cannot be in it.
+    fn patched_radiosity(gallery: &Gallery) -> Vec<([Vec3; 3], Vec3)> {
+        const SIDE: usize = 10;
+        // Reflections; 0.83⁶⁰ is 10⁻⁵.
+        const ROUNDS: usize = 60;
+        let fields = fields(gallery);
+        let world = |local: Vec3| gallery.to_world(local) - gallery.center;
+        let at = |k: usize| (2 * k + 1) as f32 / SIDE as f32 - 1.0;
+        let patches: Vec<([Vec3; 3], Vec3, Vec3)> = FACES
+            .iter()
+            .flat_map(|&face| {
+                let [u, v, c] = gallery.face_axes(face);
+                let albedo = if face == Face::Floor { FLOOR_ALBEDO } else { WALL_ALBEDO };
+                (0..SIDE * SIDE).map(move |k| {
+                    let center = gallery.to_world(c + u * at(k % SIDE) + v * at(k / SIDE));
+                    ([center, world(u) / SIDE as f32, world(v) / SIDE as f32], -world(c).normalize(), albedo)
+                })
+            })
+            .collect();
+        let seen = |&[c, u, v]: &[Vec3; 3], point: Vec3, n: Vec3| {
+            polygon_factor(&[c - u - v, c + u - v, c + u + v, c - u + v], point, n)
+        };
+        let direct = |point: Vec3, n: Vec3| {
+            let of_fields = fields.iter().filter(|f| (point - f.center).dot(f.half_width.cross(f.half_height)) > 1e-4);
+            let of_fields =
+                of_fields.map(|f| f.radiance * PI * seen(&[f.center, f.half_width, f.half_height], point, n));
+            let of_lamps = gallery.lamps.iter().map(|&lamp| {
+                let lamp = Light::Lamp(lamp);
+                let points = (0..16)
+                    .filter_map(|k| lamp.draw(point, [(k % 4) as f32 / 4.0 + 0.125, (k / 4) as f32 / 4.0 + 0.125]));
+                points.map(|sample| sample.weighted * sample.direction.dot(n).max(0.0)).sum::<Vec3>() / 16.0
+            });
+            of_fields.sum::<Vec3>() + of_lamps.sum::<Vec3>()
+        };
+        let direct: Vec<Vec3> = patches.iter().map(|([point, ..], n, _)| direct(*point, *n)).collect();
+        let factors: Vec<f32> = patches
+            .iter()
+            .flat_map(|([point, ..], n, _)| {
+                patches.iter().map(move |(patch, other, _)| if other == n { 0.0 } else { seen(patch, *point, *n) })
+            })
+            .collect();
+        let mut light: Vec<Vec3> = patches.iter().zip(&direct).map(|((.., albedo), e)| *albedo * *e).collect();
+        for _ in 0..ROUNDS {
+            light = (0..patches.len())
+                .map(|i| {
+                    let row = &factors[i * patches.len()..(i + 1) * patches.len()];
+                    patches[i].2 * (direct[i] + row.iter().zip(&light).map(|(f, b)| *f * *b).sum::<Vec3>())
+                })
+                .collect();
+        }
+        patches.into_iter().map(|(patch, ..)| patch).zip(light).collect()
+    }
+
+    #[test]
+    fn the_empty_gallery_agrees_with_its_radiosity() {
+        // Noise of 16 384 paths, and patches of one brightness each.
+        const PATCHES: f32 = 0.01;
+        // The gallery's own solution has six patches, one for each face, and misses that lamps and fields light the faces
+        // unevenly.
+        const ONE_PATCH: f32 = 0.08;
+        let exhibit = Exhibit::from_model(Default::default());
+        let gallery = Gallery::around(&exhibit);
+        let mut lights: Vec<Light> =
+            fields(&gallery).into_iter().map(|f| Light::Rectangle(Rectangle::new(f))).collect();
+        lights.extend(gallery.lamps.map(Light::Lamp));
+        let materials = Materials::new(&exhibit.model);
+        let stage = Stage {
+            world: &World::new(&Scene::default(), Vec::new(), &[], &materials),
+            gallery: Some(&gallery),
+            lights: &lights,
+            wide: gallery.fields.len(),
+            sky: None,
+            background: Vec3::ZERO,
+            table: &AlbedoTable::new(),
+            varnish: false,
+            scale: gallery.center.abs().max_element() + gallery.half.max_element(),
+        };
+        // The middle of the patch behind the exhibit.
+        let patches = patched_radiosity(&gallery);
+        let behind = |p: &[Vec3; 3]| p[0].distance_squared(gallery.exhibit_center - gallery.z * 0.5);
+        let (patch, light) = patches.iter().min_by(|a, b| behind(&a.0).total_cmp(&behind(&b.0))).expect("patches");
+        let from = gallery.exhibit_center;
+        let towards = (patch[0] - from).normalize();
+        let sobol = Sobol::new(16_384);
+        let one = |i| stage.radiance(from, towards, &mut sobol.sequence((5, 5), i));
+        let seen = (0..16_384).map(one).sum::<Vec3>() / 16_384.0;
+        let (solved, coarse) = (*light / PI, gallery.radiance(towards));
+        assert!((seen / solved - 1.0).abs().max_element() < PATCHES, "{seen}, by radiosity {solved}");
+        assert!((seen / coarse - 1.0).abs().max_element() < ONE_PATCH, "{seen}, by six patches {coarse}");
+    }
+
+    #[test]
+    fn the_walls_are_painted_and_the_fields_shine_inwards() {
+        let gallery = Gallery::around(&Exhibit::from_model(Default::default()));
+        for of in fields(&gallery) {
+            let inwards = of.half_width.cross(of.half_height);
+            assert!(inwards.dot(gallery.center - of.center) > 0.0, "{of:?}");
+        }
+        let hit = hit(&gallery, gallery.exhibit_center, -gallery.z).expect("the wall");
+        assert!(hit.normal.distance(gallery.z) < 1e-6);
+        let (f, _) = hit.bsdf(gallery.z, gallery.half.y, None).value(gallery.z);
+        assert!((f * PI - WALL_ALBEDO).abs().max_element() < 1e-6, "{f}");
+        let outside = gallery.center + gallery.x * 3.0 * gallery.half.x;
+        assert!(hit(&gallery, outside, gallery.x).is_none() && hit(&gallery, outside, gallery.z).is_none());
     }
 }
