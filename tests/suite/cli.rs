@@ -295,7 +295,17 @@ fn a_picture_without_a_driver_says_what_to_install() {
     desk.soffio(&["render", text(&fish()), "-o", "a.png"]).refused(3, &["mesa-vulkan-drivers"]);
     desk.soffio(&["render", text(&fish()), "--size", "wide", "-o", "a.png"]).refused(2, &["--size", "1280x720"]);
     desk.soffio(&["render", text(&fish()), "--time", "-1", "-o", "a.png"]).refused(2, &["--time"]);
+    desk.soffio(&["render", text(&fish()), "--samples", "4", "-o", "a.png"]).refused(2, &["--reference"]);
     assert!(desk.files().is_empty());
+}
+
+#[cfg(feature = "kiosk")]
+#[test]
+fn a_reference_picture_needs_no_driver() {
+    let desk = Desk::new();
+    let quick = ["--reference", "--samples", "1", "--size", "32x18", "-o", "a.png"];
+    desk.soffio(&[&["render", text(&fish())], &quick[..]].concat()).done();
+    assert!(desk.path("a.png").metadata().expect("the picture").len() > 500);
 }
 
 #[cfg(feature = "kiosk")]

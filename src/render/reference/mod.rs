@@ -9,18 +9,20 @@
 //! | `path` | the estimator: one path per sample |
 //! | `sequence` | random numbers: scrambled Sobol points |
 //! | `lights` | lamps, rectangles, punctual lights and the sky, as they are sampled |
-//! | `bsdf` | reflection: its value, and directions by its density |
+//! | `bsdf`, `gloss` | reflection: its value, and directions by its density |
+//! | `camera` | view rays through the filter of a pixel |
 //! | `material`, `texture` | materials at a point, textures |
 //! | `world`, `rod` | triangles and wires at the poses of a frame, for rays |
 //! | `walls` | the gallery's box |
 //!
-//! A picture is the mean radiance under each pixel's filter, then exposure and tone curve. The filter is a tent two pixels
-//! wide, as the live picture's files are reduced with. It is drawn from instead of weighted with, so that
-//! pixels are independent. Left out are dust, which only the live picture shows, and dither.
+//! A picture is the mean radiance under each pixel's filter, then exposure and tone curve. Left out are dust, which only
+//! the live picture shows, and dither.
 //!
 //! Each number depends on the pixel and the sample alone, so a picture has the same bits for any number of threads.
 
 mod bsdf;
+mod camera;
+mod gloss;
 mod lights;
 mod material;
 mod path;
@@ -35,7 +37,7 @@ mod world;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec3};
 
 use super::environment::Environment;
 use super::frames::rows;
@@ -47,7 +49,8 @@ use super::tone::tone_mapped;
 use super::vertex::Vertex;
 use super::wires::Lines;
 use super::{FrameInput, Lighting, RenderError};
-use bsdf::AlbedoTable;
+use camera::Camera;
+use gloss::AlbedoTable;
 use lights::{Light, MAX_LIGHTS, Rectangle, Sky};
 use material::Materials;
 use path::Stage;
@@ -238,40 +241,6 @@ impl<'a> Reference<'a> {
         }
         vertices
     }
-}
-
-/// A pinhole camera.
-struct Camera {
-    eye: Vec3,
-    /// Direction through the picture's top left corner, and from one pixel to the next.
-    corner: Vec3,
-    steps: [Vec3; 2],
-}
-
-impl Camera {
-    /// The camera of a frame: d = f + (2x − 1) a t r + (1 − 2y) t u, as [`soffio_exhibit::View`].
-    fn new(frame: &FrameInput) -> Self {
-        let (width, height) = (f64::from(frame.size.0), f64::from(frame.size.1));
-        let (right, up, forward) = frame.view.axes();
-        let t = (0.5 * frame.view.fovy).tan();
-        let (right, up) = (right * (t * width / height), up * t);
-        Self {
-            eye: frame.view.eye.as_vec3(),
-            corner: (forward - right + up).as_vec3(),
-            steps: [(right * (2.0 / width)).as_vec3(), (up * (-2.0 / height)).as_vec3()],
-        }
-    }
-
-    /// Unit direction through a point of a pixel's filter, drawn by the first two numbers.
-    fn direction(&self, (x, y): (u32, u32), [u, v, ..]: [f32; 4]) -> Vec3 {
-        let at = Vec2::new(x as f32 + 0.5 + tent(u), y as f32 + 0.5 + tent(v));
-        (self.corner + self.steps[0] * at.x + self.steps[1] * at.y).normalize()
-    }
-}
-
-/// Offset with the density of a tent, −1 … 1 pixels.
-fn tent(u: f32) -> f32 {
-    if u < 0.5 { (2.0 * u).sqrt() - 1.0 } else { 1.0 - (2.0 - 2.0 * u).sqrt() }
 }
 
 /// All rows of a picture, computed by several threads in any order.

@@ -19,7 +19,8 @@ use glam::Vec3;
 
 use super::super::gallery::Gallery;
 use super::super::scene::SurfaceKind;
-use super::bsdf::{AlbedoTable, Bsdf};
+use super::bsdf::Bsdf;
+use super::gloss::AlbedoTable;
 use super::lights::{Light, MAX_LIGHTS, Rectangle};
 use super::sequence::Sequence;
 use super::walls;

@@ -1,7 +1,7 @@
 //! A segment of a wire as a solid: a cylinder, with half a sphere where the wire goes on and a disc where it ends.
 //!
-//! With m the ray's origin relative to an end, d its direction, and ⊥ the part across the axis, the ray passes the axis
-//! at t₀ = −m⊥·d⊥ / d⊥², at the distance p = |m⊥ + t₀ d⊥|, and crosses the cylinder of radius r at
+//! Let m be the ray's origin relative to an end, d its direction, and ⊥ mark the part across the axis. The ray passes the
+//! axis at t₀ = −m⊥·d⊥ / d⊥², at the distance p = |m⊥ + t₀ d⊥|. It crosses the cylinder of radius r at
 //!
 //! ```text
 //! t = t₀ ± √((r² − p²) / d⊥²)

@@ -8,7 +8,8 @@ use glam::{Vec2, Vec3};
 
 use super::super::AreaLight;
 use super::super::gallery::{FLOOR_ALBEDO, Face, Gallery, reflectance};
-use super::bsdf::{AlbedoTable, Bsdf};
+use super::bsdf::Bsdf;
+use super::gloss::AlbedoTable;
 
 /// Perceptual roughness of the floor's varnish.
 const FLOOR_ROUGHNESS: f32 = 0.42;
@@ -148,7 +149,17 @@ fn pixel_noise(x: f32, y: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use std::f32::consts::PI;
+
+    use super::super::super::gallery::WALL_ALBEDO;
+    use super::super::super::scene::Scene;
+    use super::super::lights::{Light, Rectangle};
+    use super::super::material::Materials;
+    use super::super::path::Stage;
+    use super::super::sequence::Sobol;
+    use super::super::world::World;
     use super::*;
+    use soffio_exhibit::Exhibit;
 
     #[test]
     fn the_numbers_are_those_of_the_shader() {
@@ -179,5 +190,54 @@ mod tests {
         let count = 100_000;
         let mean = (0..count).map(|i| boards(i as f32 * 28.0 / count as f32 - 14.0)).sum::<f32>() / count as f32;
         assert!((mean - 1.0 + GROOVE_SHADE * GROOVE / BOARD).abs() < TOLERANCE, "{mean}");
+    }
+
+    #[test]
+    fn the_empty_gallery_agrees_with_its_radiosity() {
+        // Noise of 16 384 paths, patches of one brightness each, and a varnish that mirrors as if it were smooth.
+        const PATCHES: f32 = 0.03;
+        let exhibit = Exhibit::from_model(Default::default());
+        let gallery = Gallery::around(&exhibit);
+        let mut lights: Vec<Light> =
+            fields(&gallery).into_iter().map(|f| Light::Rectangle(Rectangle::new(f))).collect();
+        lights.extend(gallery.lamps.map(Light::Lamp));
+        let materials = Materials::new(&exhibit.model);
+        let stage = Stage {
+            world: &World::new(&Scene::default(), Vec::new(), &[], &materials),
+            gallery: Some(&gallery),
+            lights: &lights,
+            wide: gallery.fields.len(),
+            sky: None,
+            background: Vec3::ZERO,
+            table: &AlbedoTable::new(),
+            varnish: true,
+            scale: gallery.center.abs().max_element() + gallery.half.max_element(),
+        };
+        let sobol = Sobol::new(16_384);
+        let from = gallery.exhibit_center;
+        // Behind the exhibit, beside it, at the foot of the wall, on the ceiling.
+        for towards in [-gallery.z, gallery.x - gallery.z, -gallery.z - 0.3 * Vec3::Y, Vec3::Y - 0.4 * gallery.z] {
+            let towards = towards.normalize();
+            let one = |i| stage.radiance(from, towards, &mut sobol.sequence((5, 5), i));
+            let seen = (0..16_384).map(one).sum::<Vec3>() / 16_384.0;
+            let solved = gallery.radiance(towards);
+            println!("{towards}: {}", seen / solved);
+            assert!((seen / solved - 1.0).abs().max_element() < PATCHES, "{seen}, by radiosity {solved}");
+        }
+    }
+
+    #[test]
+    fn the_walls_are_painted_and_the_fields_shine_inwards() {
+        let gallery = Gallery::around(&Exhibit::from_model(Default::default()));
+        for of in fields(&gallery) {
+            let inwards = of.half_width.cross(of.half_height);
+            assert!(inwards.dot(gallery.center - of.center) > 0.0, "{of:?}");
+        }
+        let hit = hit(&gallery, gallery.exhibit_center, -gallery.z).expect("the wall");
+        assert!(hit.normal.distance(gallery.z) < 1e-6);
+        let (f, _) = hit.bsdf(gallery.z, gallery.half.y, None).value(gallery.z);
+        assert!((f * PI - WALL_ALBEDO).abs().max_element() < 1e-6, "{f}");
+        let outside = gallery.center + gallery.x * 3.0 * gallery.half.x;
+        assert!(hit(&gallery, outside, gallery.x).is_none() && hit(&gallery, outside, gallery.z).is_none());
     }
 }

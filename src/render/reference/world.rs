@@ -146,8 +146,11 @@ impl<'a> World<'a> {
             Solid::Facet(facet) => {
                 let Some((t, at, _)) = facet.hit(ray).filter(|hit| hit.0 < far) else { return f32::INFINITY };
                 let matter = &self.matter[facet.matter as usize];
+                if matter.holes && self.is_hole(facet, matter, at) {
+                    return f32::INFINITY;
+                }
                 if matter.kind == SurfaceKind::Opaque {
-                    return if matter.holes && self.is_hole(facet, matter, at) { f32::INFINITY } else { t };
+                    return t;
                 }
                 let surface = self.materials.surface(matter.material, &self.point(facet, at, direction));
                 through *= match matter.kind {
