@@ -44,7 +44,7 @@ fn the_sidecar_names_a_finish_for_a_material_a_body_or_a_part() {
 #[test]
 fn a_word_that_is_no_finish_is_refused_with_near_ones() {
     for (words, parts) in [
-        ("finish = \"oack\"", &["\"oack\"", "did you mean \"oak\"", "\"brass-cast\"", "exhibit.toml:6"][..]),
+        ("finish = \"oack\"", &["\"oack\"", "did you mean \"oak\"", "\"walnut\"", "exhibit.toml:6"][..]),
         ("finish = \"zzz\"", &["\"zzz\"", "there are \"oak\""][..]),
         ("[material.oak]\nfinish = \"brass\"", &["\"brass\"", "\"brass-cast\"", "exhibit.toml:7"][..]),
     ] {
@@ -63,6 +63,7 @@ fn a_word_that_is_no_finish_is_refused_with_near_ones() {
 fn a_finish_without_a_mesh_warns() {
     let mut scene = Scene::default();
     scene.node("Point", [0.0; 3], None, &[]);
+    scene.node("Block", [0.0, 0.5, 0.0], Some(&cuboid([0.4, 0.3, 0.1])), &[]);
     let words = "[[body]]\nnode = \"Point\"\nmass = 1\ninertia = { diagonal = [1, 1, 1] }\nfinish = \"oak\"\n";
     let folder = Folder::exhibit(&scene.glb(), words);
     let exhibit = exhibit::load(folder.path()).unwrap_or_else(|report| panic!("{}", report.to_text()));

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use super::projection::{Laying, lay};
 use super::{EndGrain, Finish, Maps};
-use crate::model::{AlphaMode, Appearance, Mesh, Model, Primitive, ScaledTexture, TextureUse};
+use crate::model::{AlphaMode, Appearance, Mesh, Model, Node, Primitive, ScaledTexture, TextureUse};
 use soffio_math::DVec3;
 use soffio_math::noise::hash_words;
 
@@ -24,14 +24,15 @@ pub struct Choice {
 /// Dresses a model. `choice` says what the sidecar wants for a node. Returns the nodes that have changed by it.
 pub fn dress(model: &mut Model, choice: impl Fn(usize) -> Choice) -> Vec<usize> {
     let mut users = vec![0; model.meshes.len()];
-    model.nodes.iter().filter_map(|node| node.mesh).for_each(|mesh| users[mesh] += 1);
+    let shown = |node: &Node, meshes: usize| node.mesh.filter(|mesh| *mesh < meshes);
+    model.nodes.iter().filter_map(|node| shown(node, model.meshes.len())).for_each(|mesh| users[mesh] += 1);
     let bent = |node: usize, model: &Model| {
         model.skins.iter().any(|skin| skin.node == node) || model.morphs.iter().any(|morph| morph.node == node)
     };
     let mut wardrobe = Wardrobe::default();
     let mut changed = Vec::new();
     for node in 0..model.nodes.len() {
-        let Some(mesh) = model.nodes[node].mesh.filter(|_| !bent(node, model)) else { continue };
+        let Some(mesh) = shown(&model.nodes[node], model.meshes.len()).filter(|_| !bent(node, model)) else { continue };
         let choice = choice(node);
         let mut primitives = Vec::new();
         let mut any = false;

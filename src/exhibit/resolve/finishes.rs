@@ -54,6 +54,13 @@ impl Context<'_> {
             let whole = Choice { finish: own.finish.or(self.finish_of_material(body.material.as_deref())), ..own };
             let nodes = self.subtree(root, &stops);
             nodes.iter().for_each(|&node| choices[node] = whole);
+            let of = format!("body {}", body.node);
+            if let Some(finish) = whole.finish {
+                self.record_origin(&of, "finish", finish.name.into(), &join(&at, "finish"), "its material");
+            }
+            if let Some(color) = own.color {
+                self.record_origin(&of, "color", format!("{color:?} (linear RGB)"), &join(&at, "color"), "");
+            }
             for (number, part) in body.part.iter().enumerate() {
                 let Some(top) = self.known_node(Some(root), &part.node) else { continue };
                 let at = format!("{at}/part/{number}");
