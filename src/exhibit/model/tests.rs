@@ -311,7 +311,7 @@ fn data_is_checked_too() {
         binary.clone_from(&good);
     }
     for (at, bytes, text) in
-        [(start(1), 3_f32, "NORMAL"), (start(5), 0.5, "WEIGHTS_0"), (start(0), 0.5, "accessors[0].min")]
+        [(start(1), 3_f32, "NORMAL"), (start(5), 0.5, "WEIGHTS_0"), (start(0) + 12, 0.5, "accessors[0].max")]
     {
         put(&mut binary, at, &bytes.to_le_bytes());
         let warnings = read(&glb(&document, &binary)).expect("normalised when it is used").warnings;
