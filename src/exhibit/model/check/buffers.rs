@@ -67,7 +67,7 @@ impl<'a> Check<'a> {
             }
             let Some(stride) = whole(view, "byteStride") else { continue };
             let place = format!("bufferViews[{index}].byteStride");
-            if stride % 4 != 0 {
+            if !stride.is_multiple_of(4) {
                 self.faults.add(Cause::Misaligned, &place, format_args!("is {stride}; it must be a multiple of 4"));
             } else if !(4..=252).contains(&stride) {
                 self.faults.add(Cause::Range, &place, format_args!("is {stride}; it must be from 4 to 252"));
@@ -99,7 +99,7 @@ impl<'a> Check<'a> {
                     self.faults.add(Cause::Outside, place, what);
                 }
                 self.fits(place, "", view, offset.unwrap_or(0), [stride, size, count, component]);
-                if let Some(offset) = offset.filter(|offset| kind.starts_with("MAT") && offset % 4 != 0) {
+                if let Some(offset) = offset.filter(|offset| kind.starts_with("MAT") && !offset.is_multiple_of(4)) {
                     let what = format_args!("is {offset}; columns of matrices begin at multiples of 4 bytes");
                     self.faults.add(Cause::Misaligned, format_args!("{place}.byteOffset"), what);
                 }
@@ -132,7 +132,7 @@ impl<'a> Check<'a> {
     fn fits(&mut self, place: &str, part: &str, view: usize, offset: usize, [stride, size, count, unit]: [usize; 4]) {
         let found = &self.list("bufferViews")[view];
         let (start, length) = (whole(found, "byteOffset").unwrap_or(0), whole(found, "byteLength").unwrap_or(0));
-        if offset % unit != 0 || start.saturating_add(offset) % unit != 0 {
+        if !offset.is_multiple_of(unit) || !start.saturating_add(offset).is_multiple_of(unit) {
             let at = start.saturating_add(offset);
             let what = format_args!("is {offset}, at byte {at} of the buffer; it must be at a multiple of {unit}");
             self.faults.add(Cause::Misaligned, format_args!("{place}{part}.byteOffset"), what);

@@ -64,12 +64,9 @@ impl<'f> Walk<'f> {
         let Some(map) = value.as_object_mut() else { return self.wrong(place, value, "an object") };
         for field in table.fields {
             let at = Place::Key(&place, field.key);
-            match map.get_mut(field.key) {
-                Some(held) => {
-                    if !self.field(held, field, at) {
-                        map.remove(field.key);
-                    }
-                }
+            match map.get_mut(field.key).map(|held| self.field(held, field, at)) {
+                Some(true) => {}
+                Some(false) => drop(map.remove(field.key)),
                 None if field.required => self.faults.add(Cause::Missing, at, "is missing"),
                 None => {}
             }
@@ -208,7 +205,7 @@ impl<'f> Walk<'f> {
             return None;
         };
         if value.as_u64().is_none() {
-            if !(number >= 0.0 && number < EXACT && number.fract() == 0.0) {
+            if !((0.0..EXACT).contains(&number) && number.fract() == 0.0) {
                 let what = format_args!("is {value}; it must be a whole number of at least 0");
                 self.faults.add(Cause::Range, place, what);
                 return None;
