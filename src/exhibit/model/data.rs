@@ -165,7 +165,7 @@ fn influences(primitive: &gltf::Primitive, buffers: &[Vec<u8>], place: &str, fau
         )
         .ok()
     };
-    let [mut joints, mut weights] = [const { Vec::<Vec<[f32; 4]>>::new() }; 2];
+    let (mut joints, mut weights) = (Vec::<Vec<[f32; 4]>>::new(), Vec::<Vec<[f32; 4]>>::new());
     for set in 0.. {
         let read = (vectors(primitive.get(&Semantic::Joints(set))), vectors(primitive.get(&Semantic::Weights(set))));
         let (Some(j), Some(w)) = read else { break };

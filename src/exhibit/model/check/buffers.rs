@@ -67,7 +67,7 @@ impl<'a> Check<'a> {
             }
             let Some(stride) = whole(view, "byteStride") else { continue };
             let place = format!("bufferViews[{index}].byteStride");
-            if stride % 4 != 0 {
+            if !stride.is_multiple_of(4) {
                 self.faults.add(Cause::Misaligned, &place, format_args!("is {stride}; it must be a multiple of 4"));
             } else if !(4..=252).contains(&stride) {
                 self.faults.add(Cause::Range, &place, format_args!("is {stride}; it must be from 4 to 252"));
@@ -99,7 +99,7 @@ impl<'a> Check<'a> {
                     self.faults.add(Cause::Outside, place, what);
                 }
                 self.fits(place, "", view, offset.unwrap_or(0), [stride, size, count, component]);
-                if let Some(offset) = offset.filter(|offset| kind.starts_with("MAT") && offset % 4 != 0) {
+                if let Some(offset) = offset.filter(|offset| kind.starts_with("MAT") && !offset.is_multiple_of(4)) {
                     let what = format_args!("is {offset}; columns of matrices begin at multiples of 4 bytes");
                     self.faults.add(Cause::Misaligned, format_args!("{place}.byteOffset"), what);
                 }

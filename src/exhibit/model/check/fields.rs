@@ -64,14 +64,11 @@ impl<'f> Walk<'f> {
         let Some(map) = value.as_object_mut() else { return self.wrong(place, value, "an object") };
         for field in table.fields {
             let at = Place::Key(&place, field.key);
-            let Some(held) = map.get_mut(field.key) else {
-                if field.required {
-                    self.faults.add(Cause::Missing, at, "is missing");
-                }
-                continue;
-            };
-            if !self.field(held, field, at) {
-                map.remove(field.key);
+            match map.get_mut(field.key).map(|held| self.field(held, field, at)) {
+                Some(true) => {}
+                Some(false) => drop(map.remove(field.key)),
+                None if field.required => self.faults.add(Cause::Missing, at, "is missing"),
+                None => {}
             }
         }
         if let Some(extensions) = map.get_mut("extensions") {

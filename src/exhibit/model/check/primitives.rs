@@ -169,7 +169,7 @@ impl Check<'_> {
         let found = &self.list("accessors")[accessor];
         let Some(view) = whole(found, "bufferView") else { return };
         let start = whole(&self.list("bufferViews")[view], "byteOffset").unwrap_or(0);
-        if !(start + whole(found, "byteOffset").unwrap_or(0)).is_multiple_of(4) {
+        if !start.saturating_add(whole(found, "byteOffset").unwrap_or(0)).is_multiple_of(4) {
             self.warn(at, format_args!("names accessors[{accessor}], which does not begin at a multiple of 4 bytes"));
         }
     }

@@ -158,10 +158,14 @@ impl Check<'_> {
         }
         let above = |node: usize| std::iter::successors(Some(node), |&n| parents[n]);
         let roots: Vec<usize> = (0..nodes.len()).map(|node| above(node).last().unwrap_or(node)).collect();
+        let scenes: Vec<Vec<bool>> = self.list("scenes").iter().map(|scene| shown_roots(scene, nodes.len())).collect();
         for (index, skin) in self.list("skins").iter().enumerate() {
             let joints: Vec<usize> =
                 skin["joints"].as_array().into_iter().flatten().filter_map(|j| Some(j.as_u64()? as usize)).collect();
-            if joints.windows(2).any(|pair| roots[pair[0]] != roots[pair[1]]) {
+            // The roots of one scene belong together.
+            let together = |shown: &Vec<bool>| joints.iter().all(|&joint| shown[roots[joint]]);
+            let apart = joints.windows(2).any(|pair| roots[pair[0]] != roots[pair[1]]);
+            if apart && !scenes.iter().any(together) {
                 self.warn(format_args!("skins[{index}].joints"), "have no common root");
             } else if let Some(skeleton) = whole(skin, "skeleton")
                 && !joints.iter().all(|&joint| above(joint).any(|node| node == skeleton))
@@ -181,7 +185,6 @@ impl Check<'_> {
             }
             self.accessor_used(matrices, Use::Other("matrices of a skin"), &place);
         }
-        let scenes: Vec<Vec<bool>> = self.list("scenes").iter().map(|scene| shown_roots(scene, nodes.len())).collect();
         for (index, node) in nodes.iter().enumerate() {
             let (Some(skin), Some(mesh)) = (whole(node, "skin"), whole(node, "mesh")) else { continue };
             let primitives = self.list("meshes")[mesh]["primitives"].as_array();
