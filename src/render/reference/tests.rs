@@ -53,6 +53,7 @@ fn mean(primitive: Primitive, look: Appearance, lights: &[Light], ray: (Vec3, Ve
         world: &world,
         gallery: None,
         lights,
+        wide: lights.iter().filter(|light| matches!(light, Light::Sky(_) | Light::Rectangle(_))).count(),
         sky,
         background: Vec3::ONE,
         table: &table,

@@ -233,9 +233,9 @@ mod tests {
             let inwards = of.half_width.cross(of.half_height);
             assert!(inwards.dot(gallery.center - of.center) > 0.0, "{of:?}");
         }
-        let hit = hit(&gallery, gallery.exhibit_center, -gallery.z).expect("the wall");
-        assert!(hit.normal.distance(gallery.z) < 1e-6);
-        let (f, _) = hit.bsdf(gallery.z, gallery.half.y, None).value(gallery.z);
+        let wall = hit(&gallery, gallery.exhibit_center, -gallery.z).expect("the wall");
+        assert!(wall.normal.distance(gallery.z) < 1e-6);
+        let (f, _) = wall.bsdf(gallery.z, gallery.half.y, None).value(gallery.z);
         assert!((f * PI - WALL_ALBEDO).abs().max_element() < 1e-6, "{f}");
         let outside = gallery.center + gallery.x * 3.0 * gallery.half.x;
         assert!(hit(&gallery, outside, gallery.x).is_none() && hit(&gallery, outside, gallery.z).is_none());
