@@ -89,6 +89,7 @@ struct Met {
 }
 
 /// What a ray meets.
+#[expect(clippy::large_enum_variant, reason = "it lives on the stack, one at a time")]
 enum Event {
     /// Light that ends the path, weighted.
     End(Vec3),
@@ -129,9 +130,9 @@ impl Stage<'_> {
                 sum += carried * self.direct(point, &bsdf, &chances, &groups[1], [choice, u, v]);
                 chances
             } else {
-                let all = [0..self.lights.len()];
-                let chances = self.chances(point, &bsdf, &all);
-                sum += carried * self.direct(point, &bsdf, &chances, &all[0], [choice, u, v]);
+                let all = 0..self.lights.len();
+                let chances = self.chances(point, &bsdf, std::slice::from_ref(&all));
+                sum += carried * self.direct(point, &bsdf, &chances, &all, [choice, u, v]);
                 chances
             };
             if let Some(through) = through {
