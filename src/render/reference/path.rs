@@ -89,7 +89,7 @@ struct Met {
 }
 
 /// What a ray meets.
-#[allow(clippy::large_enum_variant)] // one at a time, on the stack
+#[expect(clippy::large_enum_variant, reason = "it lives on the stack, one at a time")]
 enum Event {
     /// Light that ends the path, weighted.
     End(Vec3),
