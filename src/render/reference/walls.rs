@@ -194,8 +194,9 @@ mod tests {
 
     #[test]
     fn the_empty_gallery_agrees_with_its_radiosity() {
-        // Noise of 16 384 paths, patches of one brightness each, and a varnish that mirrors as if it were smooth.
-        const PATCHES: f32 = 0.03;
+        // Noise of 16 384 paths, patches of one brightness each, and a varnish that mirrors as if it were smooth: of what the wall
+        // behind the exhibit sends.
+        const PATCHES: f32 = 0.01;
         let exhibit = Exhibit::from_model(Default::default());
         let gallery = Gallery::around(&exhibit);
         let mut lights: Vec<Light> =
@@ -221,8 +222,8 @@ mod tests {
             let one = |i| stage.radiance(from, towards, &mut sobol.sequence((5, 5), i));
             let seen = (0..16_384).map(one).sum::<Vec3>() / 16_384.0;
             let solved = gallery.radiance(towards);
-            println!("{towards}: {}", seen / solved);
-            assert!((seen / solved - 1.0).abs().max_element() < PATCHES, "{seen}, by radiosity {solved}");
+            let off = (seen - solved).abs() / gallery.radiance(-gallery.z);
+            assert!(off.max_element() < PATCHES, "{seen}, by radiosity {solved}");
         }
     }
 
