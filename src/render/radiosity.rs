@@ -218,8 +218,8 @@ impl Gallery {
 impl Patch {
     /// Form factor of the patch from a point with a normal: the fraction of the point's hemisphere that it fills, by cosine.
     fn factor(&self, point: Vec3, normal: Vec3) -> f32 {
-        // A face does not light itself.
-        if self.normal == normal { 0.0 } else { polygon_factor(&self.corners, point, normal) }
+        // A face does not light itself; normals are rounded.
+        if self.normal.dot(normal) > 0.99 { 0.0 } else { polygon_factor(&self.corners, point, normal) }
     }
 }
 
