@@ -58,6 +58,7 @@ struct Reflector {
     ab: vec2f,
     nv: f32,
     sheen_albedo: f32,
+    specular_albedo: vec3f,
 }
 
 fn reflector(s: Surface) -> Reflector {
@@ -65,9 +66,11 @@ fn reflector(s: Surface) -> Reflector {
     r.nv = clamp(dot(s.normal, s.view), 1e-3, 1.0);
     r.f0 = mix(s.f0, s.albedo, s.metallic);
     r.f90 = mix(s.f90, 1.0, s.metallic);
-    r.diffuse = s.albedo * ((1.0 - s.metallic) * (1.0 - s.transmission));
     r.ab = textureSampleLevel(dfg, smooth_sampler, vec2f(r.nv, s.roughness), 0.0).xy;
     r.energy = 1.0 + r.f0 * (1.0 / max(r.ab.x + r.ab.y, 1e-3) - 1.0);
+    r.specular_albedo = (r.f0 * r.ab.x + r.f90 * r.ab.y) * r.energy;
+    // What the gloss reflects does not reach the colour below it.
+    r.diffuse = s.albedo * ((1.0 - s.metallic) * (1.0 - s.transmission)) * max(1.0 - r.specular_albedo, vec3f(0.0));
     if LAYERS {
         r.sheen_albedo = textureSampleLevel(dfg, smooth_sampler, vec2f(r.nv, s.sheen_roughness), 0.0).z;
     }
@@ -118,16 +121,14 @@ fn image_light(s: Surface, r: Reflector) -> vec3f {
     let lod = s.roughness * globals.env_lods;
     let seen = box_projected(s.position, mirror);
     let prefiltered = textureSampleLevel(environment, smooth_sampler, seen, lod).rgb;
-    let single = r.f0 * r.ab.x + r.f90 * r.ab.y;
-    let specular_albedo = single * r.energy;
     let around = globals.env_intensity * s.occlusion * sh_irradiance(s.normal);
-    let diffuse = r.diffuse * (1.0 - specular_albedo) * (around + s.bounce) / PI;
+    let diffuse = r.diffuse * (around + s.bounce) / PI;
     // Specular occlusion from the diffuse one (Lagarde and de Rousiers 2014).
     let so = clamp(pow(r.nv + s.occlusion, exp2(-16.0 * s.roughness - 1.0)) - 1.0 + s.occlusion, 0.0, 1.0);
     // Where a part blocks the mirror ray, its mean radiance is seen instead.
     let nearby = s.bounce / (PI * max(1.0 - s.occlusion, 0.05));
     let reflected = globals.env_intensity * prefiltered * so + nearby * (1.0 - so);
-    return diffuse + reflected * specular_albedo;
+    return diffuse + reflected * r.specular_albedo;
 }
 
 // Texture coordinates, depth, and distance along the light's axis of a world point in the shadow map.

@@ -67,9 +67,10 @@ impl Gallery {
             light
         };
         let (of_lamps, of_fields) = (solve(|patch| patch.of_lamps), solve(|patch| patch.of_fields));
-        let by_lamps = level(reflected_irradiance(&patches, &of_lamps, foot, Vec3::Z));
-        let by_fields =
-            level(reflected_irradiance(&patches, &of_fields, foot, Vec3::Z) + self.direct_irradiance(foot, Vec3::Z));
+        let [mirrored_lamps, mirrored_fields] = self.mirrored_irradiance(foot, Vec3::Z);
+        let by_lamps = level(reflected_irradiance(&patches, &of_lamps, foot, Vec3::Z) + mirrored_lamps);
+        let direct = self.direct_irradiance(foot, Vec3::Z) + mirrored_fields;
+        let by_fields = level(reflected_irradiance(&patches, &of_fields, foot, Vec3::Z) + direct);
         // In a very small gallery the lamps' reflections may already suffice; a little window light always stays.
         let gain = (self.wall_ambient - by_lamps).max(0.1 * self.wall_ambient) / by_fields;
         for field in &mut self.fields {
@@ -81,8 +82,9 @@ impl Gallery {
         self.lightmap = in_parallel(&points, |&(face, at)| {
             let [u, v, c] = self.face_axes(face);
             let (point, normal) = (c + u * at.x + v * at.y, -c.normalize());
-            let varnish = if face == Face::Floor { Vec3::ZERO } else { self.mirrored_irradiance(point, normal) };
-            self.direct_irradiance(point, normal) + reflected_irradiance(&patches, &light, point, normal) + varnish
+            let varnish: Vec3 = self.mirrored_irradiance(point, normal).into_iter().sum();
+            let direct = self.direct_irradiance(point, normal) + reflected_irradiance(&patches, &light, point, normal);
+            if face == Face::Floor { direct } else { direct + varnish }
         });
     }
 
@@ -141,10 +143,10 @@ impl Gallery {
         of(0, 0).lerp(of(1, 0), share.x).lerp(of(0, 1).lerp(of(1, 1), share.x), share.y)
     }
 
-    /// Irradiance at a point of a face (gallery frame) by the mirror images that lamps and fields have in the floor's varnish:
+    /// Irradiance at a point of a face (gallery frame) by the mirror images that lamps, and fields, have in the floor's varnish:
     /// what they send to the image of the point, by Fresnel's fraction. The light map is too coarse to show that the varnish
     /// is not quite smooth.
-    fn mirrored_irradiance(&self, point: Vec3, normal: Vec3) -> Vec3 {
+    fn mirrored_irradiance(&self, point: Vec3, normal: Vec3) -> [Vec3; 2] {
         let image = Vec3::new(point.x, -2.0 * self.half.y - point.y, point.z);
         let image_normal = Vec3::new(normal.x, -normal.y, normal.z);
         let reflected = |from: Vec3| {
@@ -163,7 +165,7 @@ impl Gallery {
             reflected(c + u * field.center.x + v * field.center.y)
                 * self.field_irradiance_of(field, image, image_normal)
         });
-        of_lamps.sum::<Vec3>() + of_fields.sum::<Vec3>()
+        [of_lamps.sum(), of_fields.sum()]
     }
 
     /// Irradiance of the lamps at a world point, without shadows.
