@@ -369,7 +369,7 @@ mod tests {
 
     #[test]
     fn smooth_metal_returns_all_light_and_rough_metal_loses_some() {
-        // F0 = 1: A + B. Sampling noise of 96 points.
+        // F0 = 1: A + B. Sampling noise of that many points.
         const TOLERANCE: f32 = 0.01;
         let [a, b] = split_sum(0.7, 0.05);
         assert!((a + b - 1.0).abs() < TOLERANCE, "{a} {b}");
