@@ -384,7 +384,7 @@ fn frame(finishes: &Finishes, pivot: DVec3) -> Piece {
 pub fn glb() -> Vec<u8> {
     let mut scene = Scene::default();
     let finishes = finishes(&mut scene);
-    // Terry's wheels are of cherry, his plates of oak. Here one train is of beech, so that both can be told apart.
+    // Terry's wheels are of cherry, his plates of oak. Here one train is of beech, so that they differ to the eye.
     let mut wood = |name, color, finish| {
         let finish = Finish { name, color, metallic: 0.0, roughness: 0.5, finish: Some(finish) };
         Finishes { wood: scene.finish(&finish), ..finishes }

@@ -24,7 +24,7 @@ pub enum Side {
 
 impl LightRig {
     /// A wall of two fifths of white, on which white paint is the brightest thing in the picture, and a ratio of 4 : 1, usual for
-    /// sculpture: forms are modelled, and what lies in shadow is seen.
+    /// sculpture: forms are modelled, and shadows stay readable.
     pub const DEFAULT: Self = Self { side: Side::Left, wall: 0.435, key_to_fill: 4.0 };
     /// Allowed radiance of the wall: darker, black wires vanish; brighter, white paint does.
     pub const WALL: [f64; 2] = [0.1, 0.8];

@@ -172,7 +172,8 @@ fn a_truncated_model_is_reported_where_the_sidecar_names_it() {
     let folder = desk.spoiled("", "");
     let model = std::fs::read(fish().join("steel-fish.glb")).expect("shipped");
     std::fs::write(folder.join("steel-fish.glb"), &model[..model.len() / 2]).expect("writable");
-    desk.soffio(&["play", text(&folder)]).refused(1, &["exhibit.toml:", "steel-fish.glb", "a copy may have been cut short"]);
+    desk.soffio(&["play", text(&folder)])
+        .refused(1, &["exhibit.toml:", "steel-fish.glb", "a copy may have been cut short"]);
     let alone = desk.soffio(&["check", text(&folder.join("steel-fish.glb"))]);
     assert_eq!(alone.code, Some(1), "{}", alone.err);
     assert!(alone.err.contains("1 problem"), "{}", alone.err);

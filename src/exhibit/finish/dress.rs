@@ -1,6 +1,6 @@
 //! Gives the pieces of a model their finishes: materials with maps, and meshes with texture coordinates.
 //!
-//! It changes what is drawn and nothing else: nodes keep their places, and meshes their surface. So it comes last, when masses,
+//! It changes the picture and nothing else: nodes keep their places, and meshes their surface. So it comes last, when masses,
 //! colliders and wind surfaces are known. What has a texture of its own, is transparent, or bends (skins, morph targets) stays as it
 //! is.
 

@@ -1,6 +1,6 @@
 //! Metals: brushed, polished, cast, and lead.
 //!
-//! What is seen of a metal is what it reflects, so its structure is that of slopes and of roughness more than of colour:
+//! A metal shows its surroundings, so its structure is that of slopes and of roughness more than of colour:
 //!
 //! - *Brushed*: grooves along u, centimetres long. Across them slopes of some hundredths spread a reflection to a band.
 //! - *Polished*: waves of some centimetres from forming and polishing, a few thousandths steep, which bend reflections; and traces

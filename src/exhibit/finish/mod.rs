@@ -99,7 +99,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     FINISHES.iter().map(|finish| finish.name)
 }
 
-/// Tile of woods, m. Across it lie some twenty rings; along it a figure does not yet repeat on a usual board.
+/// Tile of woods, m. Across it lie some twenty rings; along it the pattern does not yet repeat on a usual board.
 const BOARD: [f64; 2] = [0.8, 0.25];
 /// Tile of brushed metals, m: texels of 0.4 mm by 0.2 mm.
 const BRUSHED: [f64; 2] = [0.2, 0.1];

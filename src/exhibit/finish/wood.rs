@@ -24,8 +24,8 @@ use soffio_math::{PI, cos};
 pub struct Species {
     /// Rings across a tile.
     rings: u32,
-    /// Rings by which the figure shifts them: standard deviation.
-    figure: f32,
+    /// Rings by which waves along the grain shift them: standard deviation.
+    waviness: f32,
     /// Exponent p of the darkening.
     late: i32,
     /// Darkening from early to late wood.
@@ -45,7 +45,7 @@ pub struct Species {
 /// Oak: ring-porous.
 pub const OAK: Species = Species {
     rings: 26,
-    figure: 2.6,
+    waviness: 2.6,
     late: 1,
     contrast: 0.16,
     fibres: 0.045,
@@ -58,7 +58,7 @@ pub const OAK: Species = Species {
 /// Beech: even, with rays.
 pub const BEECH: Species = Species {
     rings: 22,
-    figure: 2.2,
+    waviness: 2.2,
     late: 4,
     contrast: 0.13,
     fibres: 0.036,
@@ -71,7 +71,7 @@ pub const BEECH: Species = Species {
 /// Walnut: dark, with long pores everywhere.
 pub const WALNUT: Species = Species {
     rings: 16,
-    figure: 2.4,
+    waviness: 2.4,
     late: 2,
     contrast: 0.30,
     fibres: 0.075,
@@ -84,7 +84,7 @@ pub const WALNUT: Species = Species {
 /// Pine: no pores, strong late wood.
 pub const PINE: Species = Species {
     rings: 17,
-    figure: 2.6,
+    waviness: 2.6,
     late: 4,
     contrast: 0.34,
     fibres: 0.03,
@@ -128,7 +128,7 @@ impl Species {
         let waves = Field::fractal([3, 10], 3, seed + 1);
         let count = self.rings as f32;
         let mut phase = Field::of(|_, v| count * v);
-        phase.add(self.figure, &slow);
+        phase.add(self.waviness, &slow);
         phase.add(0.16, &waves);
         let rings = self.rings(&phase, seed);
         let fibres =

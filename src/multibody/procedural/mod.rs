@@ -115,9 +115,9 @@ impl Procedural {
     ) -> Option<usize> {
         let grabs = &grabs[..grabs.len().min(MAX_GRABS)];
         let continues = dynamics.time() == self.ended;
-        let held = !grabs.is_empty();
+        let led = !grabs.is_empty();
         let restored =
-            dynamics.position_step(dt, external, held, impacts, |step| self.advance(step, dt, grabs, continues));
+            dynamics.position_step(dt, external, led, impacts, |step| self.advance(step, dt, grabs, continues));
         self.ended = dynamics.time();
         restored
     }
