@@ -193,7 +193,8 @@ fn a_texel_is_seen_as_the_factor_that_it_makes() {
 
 #[test]
 fn the_coats_normals_bend_its_mirror_alone() {
-    let (flat, leaning) = ([128, 128, 255, 255], [230, 128, 200, 255]);
+    // It leans upwards, to the luminous fields of the ceiling.
+    let (flat, leaning) = ([128, 128, 255, 255], [128, 230, 200, 255]);
     let coated = |coat: f32, texel: [u8; 4]| {
         let details =
             Details { coat_normal: Some(ScaledTexture { texture: texture(0), scale: 1.0 }), ..Details::default() };
