@@ -44,6 +44,11 @@ fn texture(image: usize) -> TextureUse {
 
 /// The panel as a GLB, read back, and its picture; `None` where nothing draws.
 fn picture(look: Appearance, images: Vec<Image>) -> Option<image::RgbaImage> {
+    picture_of(panel(), look, images)
+}
+
+/// The same of another primitive.
+fn picture_of(primitive: Primitive, look: Appearance, images: Vec<Image>) -> Option<image::RgbaImage> {
     let node = Node {
         name: "panel".into(),
         parent: None,
@@ -57,7 +62,7 @@ fn picture(look: Appearance, images: Vec<Image>) -> Option<image::RgbaImage> {
     let made = Model {
         nodes: vec![node],
         roots: vec![0],
-        meshes: vec![Mesh { name: "panel".into(), primitives: vec![panel()] }],
+        meshes: vec![Mesh { name: "panel".into(), primitives: vec![primitive] }],
         materials: vec![look],
         images: images.into_iter().map(Arc::new).collect(),
         ..Model::default()
@@ -188,6 +193,28 @@ fn a_texel_is_seen_as_the_factor_that_it_makes() {
         assert!(off.iter().all(|off| *off <= TOLERANCE), "{name}: {off:?} levels off");
         // Some layers are seen little in an even room; each half must still be nearer to its own factor than to the other.
         assert!(off.iter().all(|off| *off < apart), "{name} is not seen: {apart} levels");
+    }
+}
+
+#[test]
+fn a_normal_map_is_the_same_with_tangents_in_the_file_and_without() {
+    /// Levels of 255: derivatives of single precision, and the tangents' own rounding.
+    const ROUNDING: i32 = 3;
+    // Along u, and the bitangent up, against v.
+    let along = Primitive { tangents: vec![[1.0, 0.0, 0.0, 1.0]; 4], ..panel() };
+    for leaning in [[230, 128, 200, 255], [26, 128, 200, 255], [128, 230, 200, 255], [128, 26, 200, 255]] {
+        let map = ScaledTexture { texture: texture(0), scale: 1.0 };
+        let look = || Appearance { normal_texture: Some(map), roughness: 0.25, ..varnish() };
+        let image = || vec![halves(leaning, leaning)];
+        let (Some(with), Some(without)) =
+            (picture_of(along.clone(), look(), image()), picture_of(panel(), look(), image()))
+        else {
+            return;
+        };
+        let pairs = with.pixels().zip(without.pixels());
+        let off = pairs.map(|(a, b)| (0..3).map(|i| (i32::from(a.0[i]) - i32::from(b.0[i])).abs()).max().unwrap_or(0));
+        let off = off.max().unwrap_or(0);
+        assert!(off <= ROUNDING, "{leaning:?}: {off} levels apart");
     }
 }
 
