@@ -67,6 +67,12 @@ fn a_sound_of_a_body_of_unknown_material_is_reported_and_not_looked_up() {
 
 #[test]
 fn a_model_that_says_it_is_shorter_than_its_header_is_refused() {
-    let report = exhibit::load_model(Path::new("tests/fuzz/found/model/short-length.glb")).expect_err("no room");
+    // The file that was found has another version, too, which is said first.
+    let mut found = std::fs::read("tests/fuzz/found/model/short-length.glb").expect("in the repository");
+    found[4..8].copy_from_slice(&2u32.to_le_bytes());
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("short-length.glb");
+    std::fs::write(&path, found).expect("writable");
+    let report = exhibit::load_model(&path).expect_err("no room");
     assert!(report.to_string().contains("its length is shorter than its header"), "{report}");
 }

@@ -286,10 +286,10 @@ fn bad_files() -> Vec<Bad> {
         changed(&format!("/accessors/{accessor}/type"), json!("VEC9"), "accessors");
         changed(&format!("/bufferViews/{accessor}/buffer"), json!(5), "bufferViews");
         changed(&format!("/bufferViews/{accessor}/byteLength"), json!(1), "accessor");
-        changed(&format!("/bufferViews/{accessor}/byteOffset"), json!(huge), "accessor");
+        changed(&format!("/bufferViews/{accessor}/byteOffset"), json!(huge), "bufferViews");
         changed(&format!("/accessors/{accessor}/count"), json!(-1), "accessors");
     }
-    changed("/accessors/1/count", json!(2), "normals");
+    changed("/accessors/1/count", json!(2), "attributes.NORMAL");
     changed("/accessors/0/type", json!("SCALAR"), "accessors[0]");
     changed("/accessors/1/type", json!("VEC2"), "accessors[1]");
     changed("/accessors/2/componentType", json!(5126), "accessors[2]");

@@ -298,6 +298,8 @@ fn a_shadow_that_moves_by_tenths_of_a_pixel_goes_evenly() {
     /// Of the greatest change from one place to the next, over the mean one: a penumbra is steepest in its middle, by 4/π,
     /// and codes of eight bits leave some noise in a column's mean.
     const EVEN: f64 = 1.8;
+    /// Pictures of slightly different exposure whose mean is taken, so that the noise of the dither is half as much.
+    const EXPOSURES: u32 = 4;
     const STEPS: u32 = 60;
     let half = [[-0.1, -0.06], [0.0, -0.06], [0.0, 0.06], [-0.1, 0.06]].map(DVec2::from).to_vec();
     let case = Case { name: "edge", outline: half, holes: vec![], turn: DQuat::IDENTITY };
@@ -309,7 +311,7 @@ fn a_shadow_that_moves_by_tenths_of_a_pixel_goes_evenly() {
             .map(|k| {
                 // The shadow goes a little farther than the plate.
                 let step = 0.1 * wall.pixel * 0.8 * (f64::from(k) - 0.5 * f64::from(STEPS));
-                let picture = wall.picture(Pose { position: right * step, rotation: DQuat::IDENTITY }, 1);
+                let picture = wall.picture(Pose { position: right * step, rotation: DQuat::IDENTITY }, EXPOSURES);
                 let rows = 50..110;
                 let count = f64::from(rows.end - rows.start);
                 rows.map(|y| picture[(y * SIZE.0 + x) as usize]).sum::<f64>() / count
