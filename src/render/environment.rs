@@ -23,7 +23,7 @@ pub const TABLE_SIZE: u32 = 48;
 /// Colbert 2008).
 const FILTER_SAMPLES: u32 = 48;
 /// Samples of each entry of the table: noise below 1 % (a test checks it).
-const TABLE_SAMPLES: u32 = 384;
+const TABLE_SAMPLES: u32 = 192;
 
 /// Environment light, prefiltered for the GPU.
 #[derive(Clone, Debug)]
