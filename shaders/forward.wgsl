@@ -184,9 +184,9 @@ fn bent(v: Varying, n: vec3f, bump: vec3f, scale: f32, dp_x: vec3f, dp_y: vec3f,
         // Derivatives along y are taken downwards, which turns both signs; and the map's second axis points up, against v.
         t = -(py * at_x.x + px * at_y.x);
         b = py * at_x.y + px * at_y.y;
-        let unit = inverseSqrt(max(max(dot(t, t), dot(b, b)), 1e-30));
-        t *= unit;
-        b *= unit;
+        // Of unit length each, as in a file: slopes do not depend on how far the map is stretched.
+        t *= inverseSqrt(max(dot(t, t), 1e-30));
+        b *= inverseSqrt(max(dot(b, b), 1e-30));
     }
     return normalize(t * bump.x * scale + b * bump.y * scale + n * bump.z);
 }

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use glam::Vec4;
 
 use super::scene::Scene;
+use super::skins::Skinned;
 use super::vertex::Vertex;
 
 /// Most passes: an edge is then a 64th of its length.
@@ -26,7 +27,7 @@ impl Scene {
     /// Halves each edge that is too long, once; returns whether there was any.
     fn halve(&mut self, longest: f32) -> bool {
         // Skins place their own vertices in each frame, and no others.
-        let skins: Vec<_> = self.skins.iter().map(|skin| skin.first..skin.first + skin.vertices.len() as u32).collect();
+        let skins: Vec<_> = self.skins.iter().map(Skinned::range).collect();
         let is_skin = |vertex: u32| skins.iter().any(|range| range.contains(&vertex));
         let mut middles: HashMap<(u32, u32), u32> = HashMap::new();
         let vertices = &mut self.vertices;

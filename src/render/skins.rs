@@ -166,6 +166,11 @@ pub(super) struct Skinned {
 }
 
 impl Skinned {
+    /// Its vertices among the scene's.
+    pub fn range(&self) -> std::ops::Range<u32> {
+        self.first..self.first + self.corners.len() as u32
+    }
+
     /// The primitive of this number, whose vertices begin at `first` in `frame`. `carriers` gives the body that carries
     /// each node.
     pub fn new(
