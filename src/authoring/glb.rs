@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 
 use super::solid::Solid;
 use crate::model_writer::container;
+use soffio_exhibit::model::FINISH;
 use soffio_math::{DQuat, DVec3, Pose};
 
 const FLOAT: u32 = 5126;
@@ -124,7 +125,7 @@ impl Scene {
             },
         });
         if let Some(structure) = finish.finish {
-            material["extras"] = json!({ "soffio_finish": structure });
+            material["extras"] = json!({ FINISH: structure });
         }
         self.materials.push(material);
         self.materials.len() - 1

@@ -6,7 +6,7 @@ use image::ImageFormat;
 use serde_json::{Value, json};
 
 use super::Writer;
-use soffio_exhibit::model::{AlphaMode, Appearance, Levels, Model, Sampler, TextureUse, Wrap};
+use soffio_exhibit::model::{AlphaMode, Appearance, FINISH, Levels, Model, Sampler, TextureUse, Wrap};
 use soffio_math::{atan2, sqrt};
 
 impl Writer {
@@ -48,6 +48,9 @@ impl Writer {
         }
         if !look.name.is_empty() {
             out["name"] = json!(look.name);
+        }
+        if let Some(finish) = &look.finish {
+            out["extras"] = json!({ FINISH: finish });
         }
         match look.alpha {
             AlphaMode::Opaque => {}

@@ -93,7 +93,7 @@ fn finish_of(material: &gltf::Material, note: impl FnOnce(String)) -> Option<&'s
 }
 
 /// Key of a finish in the extras of a material.
-const FINISH: &str = "soffio_finish";
+pub const FINISH: &str = "soffio_finish";
 
 /// Name of the texture-transform extension.
 const TEXTURE_TRANSFORM: &str = "KHR_texture_transform";
