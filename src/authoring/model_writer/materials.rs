@@ -50,7 +50,7 @@ impl Writer {
             out["name"] = json!(look.name);
         }
         if let Some(finish) = &look.finish {
-            out["extras"] = json!({ FINISH: finish });
+            out["extras"] = json!({ FINISH: finish.name });
         }
         match look.alpha {
             AlphaMode::Opaque => {}
