@@ -33,19 +33,19 @@ use soffio_exhibit::model::{Appearance, Model};
 /// Longest edge after refinement, in radii of the scene: chosen by eye, so that no shadow edge shows the triangles.
 const MAX_EDGE: f32 = 1.0 / 28.0;
 /// Number of vertices beyond which no edge is halved: bounds the time of a load.
-const MAX_VERTICES: usize = 20_000;
+const MAX_VERTICES: usize = 12_000;
 /// Fewest rays of each vertex; with fewer the noise would show, and nothing is baked. Chosen by eye.
 const MIN_RAYS: usize = 12;
 /// Most rays of each vertex: more make no visible difference.
 const MAX_RAYS: usize = 320;
 /// Most rays of all vertices together: bounds the time of a load.
-const RAY_BUDGET: usize = 1_500_000;
+const RAY_BUDGET: usize = 600_000;
 /// Number of reflections. At a reflectance of 0.3 they leave out 0.3⁵, a quarter of a per cent (see the test below).
 const REFLECTIONS: u32 = 5;
 /// Points along each side of an area light that a vertex is tested against: 16 steps of penumbra, chosen by eye.
 const LIGHT_GRID: u32 = 4;
 /// Points of a lamp's disc that a vertex is tested against: as many steps of penumbra, which interpolation smooths.
-const LAMP_POINTS: u32 = 6;
+const LAMP_POINTS: u32 = 4;
 /// Angle between successive points of Vogel's spiral, rad: π (3 − √5).
 const GOLDEN_ANGLE: f32 = 2.399_963_2;
 /// Mip level of the environment cube that rays read: as coarse as the rays are sparse.

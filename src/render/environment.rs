@@ -13,9 +13,9 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-/// Texels along an edge of the sharpest cube level: 0.7° each, sharper than any material here mirrors.
-pub const CUBE_SIZE: u32 = 128;
-/// Roughness levels of the cube, mirror to rough; the coarsest has four texels along an edge.
+/// Texels along an edge of the sharpest cube level: 1.4° each, sharper than any material here mirrors.
+pub const CUBE_SIZE: u32 = 64;
+/// Roughness levels of the cube, mirror to rough; the coarsest has two texels along an edge.
 pub const CUBE_MIPS: u32 = 6;
 /// Texels along an edge of the split-sum table. It is smooth, so linear interpolation between them suffices.
 pub const TABLE_SIZE: u32 = 48;
@@ -23,7 +23,7 @@ pub const TABLE_SIZE: u32 = 48;
 /// Colbert 2008).
 const FILTER_SAMPLES: u32 = 48;
 /// Samples of each entry of the table: noise below 1 % (a test checks it).
-const TABLE_SAMPLES: u32 = 192;
+const TABLE_SAMPLES: u32 = 96;
 
 /// Environment light, prefiltered for the GPU.
 #[derive(Clone, Debug)]
