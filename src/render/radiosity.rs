@@ -288,7 +288,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wall_behind_the_work_has_its_level_and_darkens_towards_the_floor() {
+    fn the_wall_behind_the_work_has_its_level_and_looks_so_from_the_work() {
         // The light map is interpolated between its texels.
         const TOLERANCE: f32 = 3e-3;
         let gallery = Gallery::around(&soffio_exhibit::Exhibit::from_model(Default::default()));
@@ -298,7 +298,6 @@ mod tests {
             (WALL_ALBEDO / PI * e).element_sum() / 3.0
         };
         assert!((level(w.y) / gallery.wall_ambient - 1.0).abs() < TOLERANCE, "{}", level(w.y));
-        assert!(level(-gallery.half.y * 0.99) < level(w.y), "the floor is darker than the walls");
         // The view from the exhibit straight at that point shows the same radiance.
         let seen = gallery.radiance(-gallery.z);
         let lamps =
