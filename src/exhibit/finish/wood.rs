@@ -10,7 +10,7 @@
 //! plain-sawn wood. Since N is whole and n repeats, so does the tile. On end grain the phase is N v + A cos 2πu: arcs about a pith far
 //! away.
 //!
-//! Within a ring, wood darkens from early to late wood and begins anew at its edge: t^p for t in 0 … 1. Pores are cut
+//! Within a ring, wood darkens from early to late wood and starts light again at its edge: t^p for t in 0 … 1. Pores are cut
 //! lengthwise, so they are short dark dashes: of ring-porous oak in the early wood alone, of walnut everywhere. Beech has neither,
 //! but rays, which are spindles of a millimetre or two. The sizes are those of "The Wood Database" and of Hoadley, "Identifying
 //! Wood", 1990. The contrasts were set by eye beside photographs of oiled boards.

@@ -130,7 +130,7 @@ impl Cause {
             Self::Truncated => "copy or download the file again, whole; a copy may have been cut short",
             Self::NotGltf => "a model is a .glb or .gltf file; in Blender: File > Export > glTF 2.0",
             Self::Version => "export it as glTF 2.0",
-            Self::Container => "write the file's chunks anew: gltf-transform copy in.glb out.glb",
+            Self::Container => "write the file's chunks again: gltf-transform copy in.glb out.glb",
             Self::Json => "correct the JSON at that line in a text editor, or export the model again",
             Self::Missing => "add the field, or export with another version of the program that made the file",
             Self::WrongType => "write a value of that type, or export with another version of the program",
