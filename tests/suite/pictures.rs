@@ -326,6 +326,18 @@ fn dust_adds_light_where_it_is_and_nowhere_else() {
     assert!(gained > 30, "{gained}");
 }
 
+/// The eight corners of a box.
+fn corners(bounds: &soffio_exhibit::view::Bounds) -> [DVec3; 8] {
+    std::array::from_fn(|i| {
+        let pick = |bit: usize, low: f64, high: f64| if i & bit == 0 { low } else { high };
+        DVec3::new(
+            pick(1, bounds.min.x, bounds.max.x),
+            pick(2, bounds.min.y, bounds.max.y),
+            pick(4, bounds.min.z, bounds.max.z),
+        )
+    })
+}
+
 #[test]
 fn a_narrower_picture_shows_the_whole_exhibit_and_as_large_as_it_can() {
     // Rounding of a few double-precision operations.
@@ -338,13 +350,7 @@ fn a_narrower_picture_shows_the_whole_exhibit_and_as_large_as_it_can() {
         let view = exhibit.view(aspect);
         assert!(wide(&view, aspect) <= wide(&own, 1.5) + ROUNDING, "no wider than the camera");
         let mut reach: f64 = 0.0;
-        for i in 0..8 {
-            let pick = |bit: i32, low: f64, high: f64| if i & bit == 0 { low } else { high };
-            let corner = DVec3::new(
-                pick(1, bounds.min.x, bounds.max.x),
-                pick(2, bounds.min.y, bounds.max.y),
-                pick(4, bounds.min.z, bounds.max.z),
-            );
+        for corner in corners(&bounds) {
             let at = view.project(corner, aspect).expect("in front");
             assert!(at.iter().all(|c| (0.0..=1.0).contains(c)), "aspect {aspect}, corner {corner}: {at:?}");
             reach = at.iter().fold(reach, |reach, c| reach.max(2.0 * (c - 0.5).abs()));
@@ -364,13 +370,7 @@ fn a_model_without_a_camera_is_framed_whole_in_any_aspect() {
     let bounds = exhibit.bounds();
     for aspect in [0.4, 1.0, 2.5] {
         let view = exhibit.view(aspect);
-        for i in 0..8 {
-            let pick = |bit: i32, low: f64, high: f64| if i & bit == 0 { low } else { high };
-            let corner = DVec3::new(
-                pick(1, bounds.min.x, bounds.max.x),
-                pick(2, bounds.min.y, bounds.max.y),
-                pick(4, bounds.min.z, bounds.max.z),
-            );
+        for corner in corners(&bounds) {
             let at = view.project(corner, aspect).expect("in front");
             assert!(at.iter().all(|c| (0.0..=1.0).contains(c)), "aspect {aspect}, corner {corner}: {at:?}");
         }
