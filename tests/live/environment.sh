@@ -215,16 +215,23 @@ level() { # level RAW FROM SECONDS
         awk '/^RMS lev dB/ { print ($4 == "-inf" || $4 < -140) ? -140 : $4; found = 1 } END { if (!found) print -140 }'
 }
 
-# Onsets, s: times at which a channel (from 1) of a recording of the air, or a mix of several (as in sox' remix), rises above a level
-# (dB of full scale, 5 ms) after at least a second below it.
-onsets() { # onsets RAW CHANNEL LEVEL
+# Levels of a channel (from 1) of a recording of the air, or of a mix of several (as in sox' remix): dB of full scale, a line each 5 ms.
+levels() { # levels RAW CHANNEL
     sox -t raw -r 48000 -c 3 -e float -b 32 "$1" -t raw -c 1 -e float -b 32 - remix "$2" | od -An -v -w960 -tf4 |
-        awk -v loud="$3" '{
-            sum = 0
-            for (i = 1; i <= NF; i++) sum += $i * $i
-            if (10 * log(sum / NF + 1e-14) / log(10) > loud) { if (quiet >= 200) print (NR - 1) / 200; quiet = 0 }
-            else quiet++
-        }'
+        awk '{ sum = 0; for (i = 1; i <= NF; i++) sum += $i * $i; print 10 * log(sum / NF + 1e-14) / log(10) }'
+}
+
+# Onsets, s: times at which a channel rises above a level after at least a second below it.
+onsets() { # onsets RAW CHANNEL LEVEL
+    levels "$1" "$2" | awk -v loud="$3" '$1 > loud { if (quiet >= 200) print (NR - 1) / 200; quiet = -1 } { quiet++ }'
+}
+
+# True where a channel was below a level during the last 1.5 s of a recording that goes on. A frame has 12 bytes.
+is_silent() { # is_silent RAW CHANNEL LEVEL
+    local frames
+    frames=$(($(stat -c %s "$1") / 12))
+    tail -c +$((12 * (frames - 72000) + 1)) "$1" >"$workdir/lately.raw"
+    levels "$workdir/lately.raw" "$2" | awk -v loud="$3" '$1 > loud { exit 1 }'
 }
 
 # Longest block of one of the kiosk's devices, ms.
