@@ -150,11 +150,12 @@ impl Worker {
                 Ok(request) => Some(request),
             };
             let sent = match request {
-                Some(CatalogRequest::Show(folder)) => self.show(folder),
-                // Several changes during a load count as one.
+                Some(CatalogRequest::Show(folder)) => {
+                    let newest = self.newest(folder, requests);
+                    self.show(newest)
+                }
                 Some(CatalogRequest::Load(folder)) => {
-                    self.queue.retain(|(other, _)| *other != folder);
-                    self.queue.push_front((folder, true));
+                    self.enqueue(folder);
                     Ok(())
                 }
                 None => self.queue.pop_front().map_or(Ok(()), |(folder, changed)| self.look(&folder, changed)),
@@ -163,6 +164,23 @@ impl Worker {
                 return;
             }
         }
+    }
+
+    /// The exhibit that was requested last: `folder`, or a later request that waits already. Nobody wants to see those in between.
+    fn newest(&mut self, mut folder: PathBuf, requests: &Receiver<CatalogRequest>) -> PathBuf {
+        while let Ok(request) = requests.try_recv() {
+            match request {
+                CatalogRequest::Show(later) => folder = later,
+                CatalogRequest::Load(changed) => self.enqueue(changed),
+            }
+        }
+        folder
+    }
+
+    /// A folder has changed. Several changes during a load count as one.
+    fn enqueue(&mut self, folder: PathBuf) {
+        self.queue.retain(|(other, _)| *other != folder);
+        self.queue.push_front((folder, true));
     }
 
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {

@@ -13,7 +13,6 @@ impl App<'_> {
     pub(super) fn handle_catalog_event(&mut self, event: CatalogEvent) {
         match event {
             CatalogEvent::Show(exhibit, baked) => {
-                self.exhibits.changing = false;
                 self.exhibits.problem = None;
                 self.fleet.record_reload(true, None);
                 self.visit.breath_time.end_visit();
@@ -26,7 +25,7 @@ impl App<'_> {
                 self.send_controls();
             }
             CatalogEvent::Failed(report) => {
-                self.exhibits.changing = false;
+                self.exhibits.record_failed();
                 self.fleet.record_reload(false, None);
                 self.say(format!("{}\nThe last valid exhibit stays on show.", report.trim_end()));
             }
@@ -47,9 +46,10 @@ impl App<'_> {
         }
     }
 
-    /// Requests the exhibit `by` places after the one on show; returns whether there is another.
-    pub(super) fn show_neighbour(&self, by: i32) -> bool {
-        self.show.as_ref().is_some_and(|show| self.exhibits.show_neighbour(&show.live.frame().exhibit.folder, by))
+    /// Requests the exhibit `by` places after the one on show, or requested; returns whether there is another.
+    pub(super) fn show_neighbour(&mut self, by: i32) -> bool {
+        let shown = self.show.as_ref().map(|show| show.live.frame().exhibit.folder.clone());
+        shown.is_some_and(|shown| self.exhibits.show_neighbour(&shown, by))
     }
 
     /// Resets everything when the visitor has left, with or without attract mode. After each round of attract mode the next
@@ -63,8 +63,9 @@ impl App<'_> {
             self.visit.leave(&self.setup.config);
             self.send_controls();
         }
-        if frame.attracts && frame.attract_rounds > 0 && !self.exhibits.changing {
-            self.exhibits.changing = self.show_neighbour(1);
+        self.exhibits.record_shown(&frame.exhibit.id);
+        if frame.attracts && frame.attract_rounds > 0 && !self.exhibits.is_changing() {
+            self.show_neighbour(1);
         }
     }
 }

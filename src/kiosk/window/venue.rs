@@ -101,7 +101,7 @@ impl App<'_> {
     pub(super) fn apply_staff_action(&mut self, events: &ActiveEventLoop, action: StaffAction, frame: &LiveState) {
         match action {
             StaffAction::Close => events.exit(),
-            StaffAction::Reload => self.exhibits.loader.show(&frame.exhibit.folder),
+            StaffAction::Reload => self.exhibits.request(&frame.exhibit.folder),
             StaffAction::Reset => self.send(KioskCommand::Simulation(Command::Reset)),
             StaffAction::Mute => self.handle_request(events, Request::Mute),
             StaffAction::Night => self.handle_request(events, Request::Night),

@@ -13,8 +13,8 @@ pub(crate) struct ExhibitSelection {
     pub offer: Catalog,
     /// Pictures of the exhibits, by id.
     pub thumbnails: Vec<(String, egui::TextureHandle)>,
-    /// Is the next exhibit of attract mode being loaded?
-    pub changing: bool,
+    /// Id of the exhibit that was requested last, until a frame shows it or it fails.
+    pending: Option<String>,
     /// Count of handled swipes.
     swipes: i64,
     /// Why the files of the exhibit on show do not load.
@@ -28,29 +28,53 @@ impl ExhibitSelection {
             loader: CatalogLoader::new(places, shown, hot_reload),
             offer: Catalog::new(places),
             thumbnails: Vec::new(),
-            changing: false,
+            pending: None,
             swipes: 0,
             problem: None,
         }
     }
 
-    /// Requests the exhibit `by` places after the one in the folder `shown`; returns whether there is another.
-    pub fn show_neighbour(&self, shown: &Path, by: i32) -> bool {
-        let next = self.offer.neighbour(&id(shown), by as isize);
-        next.inspect(|exhibit| self.loader.show(&exhibit.folder)).is_some()
+    /// Requests the exhibit in a folder again, or for the first time.
+    pub fn request(&mut self, folder: &Path) {
+        self.pending = Some(id(folder));
+        self.loader.show(folder);
+    }
+
+    /// Requests the exhibit `by` places after the one that was requested last, else after the one in the folder `shown`; returns
+    /// whether there is another.
+    pub fn show_neighbour(&mut self, shown: &Path, by: i32) -> bool {
+        let from = self.pending.clone().unwrap_or_else(|| id(shown));
+        let next = self.offer.neighbour(&from, by as isize).map(|exhibit| exhibit.folder.clone());
+        next.inspect(|folder| self.request(folder)).is_some()
     }
 
     /// Requests the exhibit at this index.
-    pub fn show_at(&self, index: usize) {
-        if let Some(exhibit) = self.offer.entries().get(index) {
-            self.loader.show(&exhibit.folder);
-        }
+    pub fn show_at(&mut self, index: usize) {
+        let exhibit = self.offer.entries().get(index).map(|exhibit| exhibit.folder.clone());
+        exhibit.inspect(|folder| self.request(folder));
     }
 
     /// Requests an exhibit by its id; returns whether it is offered.
-    pub fn show(&self, id: &str) -> bool {
+    pub fn show(&mut self, id: &str) -> bool {
         let exhibit = self.offer.entries().iter().find(|exhibit| exhibit.id == id);
-        exhibit.inspect(|exhibit| self.loader.show(&exhibit.folder)).is_some()
+        exhibit.map(|exhibit| exhibit.folder.clone()).inspect(|folder| self.request(folder)).is_some()
+    }
+
+    /// Is a requested exhibit not on show yet?
+    pub fn is_changing(&self) -> bool {
+        self.pending.is_some()
+    }
+
+    /// A frame shows the exhibit with this id.
+    pub fn record_shown(&mut self, id: &str) {
+        self.pending.take_if(|pending| pending == id);
+    }
+
+    /// The exhibit that was requested last does not load: it is offered again when its files have changed.
+    pub fn record_failed(&mut self) {
+        if let Some(id) = self.pending.take() {
+            self.offer.remove(&id);
+        }
     }
 
     /// New swipes since the last call; `swipes` is the count so far.
