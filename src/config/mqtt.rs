@@ -1,9 +1,11 @@
 //! Settings of the MQTT connection to a broker in the museum's network.
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
-/// Port of a broker that names none.
-const PORT: u16 = 1883;
+/// Ports of a broker that names none, without and with encryption (registered by IANA).
+const PORTS: [u16; 2] = [1883, 8883];
 
 /// Broker to which the kiosk reports its state, and from which it takes commands.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -15,9 +17,15 @@ pub struct MqttSettings {
     pub topic: String,
     /// User name at the broker; empty where none is needed.
     pub user: String,
-    /// Password, sent unencrypted.
+    /// Password; unencrypted without `authority`.
     pub password: String,
-    /// Commands that are accepted.
+    /// File of the certificates (PEM) that the broker's own must come from: the connection is encrypted. Empty for none.
+    pub authority: PathBuf,
+    /// File of the kiosk's own certificate (PEM), for a broker that asks for one; empty for none.
+    pub certificate: PathBuf,
+    /// File of the private key (PEM) to the kiosk's own certificate.
+    pub key: PathBuf,
+    /// Commands that are accepted; none by default.
     pub obeys: Vec<MqttOrder>,
 }
 
@@ -39,13 +47,15 @@ pub enum MqttOrder {
 
 impl Default for MqttSettings {
     fn default() -> Self {
-        use MqttOrder::{Blank, Exhibit, Mute, Reload, Wake};
         Self {
             broker: String::new(),
             topic: "soffio".into(),
             user: String::new(),
             password: String::new(),
-            obeys: vec![Reload, Blank, Wake, Mute, Exhibit],
+            authority: PathBuf::new(),
+            certificate: PathBuf::new(),
+            key: PathBuf::new(),
+            obeys: Vec::new(),
         }
     }
 }
@@ -55,15 +65,36 @@ impl MqttSettings {
     pub fn address(&self) -> Option<(&str, u16)> {
         let (host, port) = match self.broker.rsplit_once(':') {
             Some((host, port)) => (host, port.parse().ok()?),
-            None => (self.broker.as_str(), PORT),
+            None => (self.broker.as_str(), PORTS[usize::from(self.is_encrypted())]),
         };
         (!host.is_empty()).then_some((host, port))
+    }
+
+    /// Is the connection encrypted?
+    pub fn is_encrypted(&self) -> bool {
+        !self.authority.as_os_str().is_empty()
+    }
+
+    /// Does the kiosk identify itself by a certificate?
+    pub fn has_certificate(&self) -> bool {
+        !self.certificate.as_os_str().is_empty()
+    }
+
+    /// What is wrong with the kiosk's own certificate, and what to do.
+    pub(super) fn certificate_problem(&self) -> Option<(String, String)> {
+        let has_key = !self.key.as_os_str().is_empty();
+        let problem = match () {
+            () if self.has_certificate() != has_key => "one of certificate and key is missing",
+            () if self.has_certificate() && !self.is_encrypted() => "a certificate needs an encrypted connection",
+            () => return None,
+        };
+        Some((problem.into(), "give certificate, key and authority, or only authority".into()))
     }
 
     /// What is wrong with the broker's address, and what to do.
     pub(super) fn broker_problem(&self) -> Option<(String, String)> {
         let bad = !self.broker.is_empty() && self.address().is_none() || self.broker.contains(['/', ' ']);
-        let help = "give a host such as \"broker.museum\", with its port after a colon where it is not 1883, or leave it empty";
+        let help = "give a host such as \"broker.museum\", with its port after a colon where it is not 1883 (8883 if encrypted), or leave it empty";
         bad.then(|| (format!("\"{}\" is no host and port", self.broker), help.into()))
     }
 

@@ -355,7 +355,7 @@ broker() {
     printf 'listener %s 127.0.0.1\nallow_anonymous false\npassword_file %s\n' "$port" "$workdir/mosquitto.passwords" >"$workdir/mosquitto.conf"
     chmod 755 "$workdir"
     chmod 644 "$workdir/mosquitto.passwords"
-    configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[mqtt]\nbroker = "127.0.0.1:%s"\ntopic = "%s"\nuser = "hall"\npassword = "secret"\n' \
+    configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum", "steel-fish"]\n[mqtt]\nbroker = "127.0.0.1:%s"\ntopic = "%s"\nuser = "hall"\npassword = "secret"\nobeys = ["reload", "blank", "wake", "mute", "exhibit"]\n' \
         "$root/exhibits" "$port" "$topic"
     # The kiosk starts before the broker.
     launch_kiosk broker --config "$toml" --no-attract

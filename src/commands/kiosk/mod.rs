@@ -81,7 +81,7 @@ pub struct Args {
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
     let log = Log::default();
-    log_to_stderr(&log);
+    let _guard = log_to_stderr(&log);
     let (loaded, problem) = match Config::load(args.config.as_deref()) {
         Ok(loaded) => (loaded, None),
         Err(error) => {
@@ -207,8 +207,8 @@ fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop:
 }
 
 /// Logs go to stderr, and their last lines to the staff panel; `RUST_LOG` says how much. The sound server's client calls
-/// its own orderly end an error.
-fn log_to_stderr(log: &Log) {
+/// its own orderly end an error. The guard writes the last lines at the end.
+fn log_to_stderr(log: &Log) -> impl Drop {
     let requested = std::env::var("RUST_LOG").ok().and_then(|filter| filter.parse::<Targets>().ok());
     let usual = || {
         let levels = [("soffio", LevelFilter::INFO), ("pulseaudio", LevelFilter::OFF)];
@@ -216,7 +216,9 @@ fn log_to_stderr(log: &Log) {
     };
     let filter = requested.unwrap_or_else(usual);
     let terminal = std::io::stderr().is_terminal();
-    let lines = tracing_subscriber::fmt::layer().with_writer(std::io::stderr).with_ansi(terminal);
+    let (writer, guard) = log.writer(std::io::stderr());
+    let lines = tracing_subscriber::fmt::layer().with_writer(writer).with_ansi(terminal);
     // A second call in one process keeps the first log.
     let _ = tracing_subscriber::registry().with(filter).with(lines).with(log.clone()).try_init();
+    guard
 }

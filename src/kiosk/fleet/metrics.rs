@@ -50,6 +50,8 @@ pub struct MetricsInput<'a> {
     pub safe: bool,
     /// Was the last reloaded file, a configuration or an exhibit, valid?
     pub reloads: bool,
+    /// Lines of the log that were dropped since nobody read them.
+    pub dropped_lines: usize,
     /// Number of breaths after which the microphone's foam is changed; 0: no limit.
     pub foam_lasts: u32,
     /// The exhibit on show.
@@ -98,6 +100,8 @@ fn machine(page: &mut MetricsText, frame: &LiveState, numbers: &MetricsInput) {
     page.labelled("solver_mode", "gauge", "Solver of the exhibit on show, 1 for the one in use", &rows);
     page.number("solver_mode_changes_total", "counter", "Changes of the solver", load.mode_changes as f64);
     page.number("steps_dropped_total", "counter", "Simulation steps that were dropped", load.dropped as f64);
+    let dropped = numbers.dropped_lines as f64;
+    page.number("log_lines_dropped_total", "counter", "Lines of the log that nobody read in time", dropped);
 }
 
 fn sound(page: &mut MetricsText, frame: &LiveState) {

@@ -4,6 +4,7 @@
 
 pub mod metrics;
 pub(crate) mod mqtt;
+pub(crate) mod orders;
 pub mod persisted;
 pub mod persisted_spread;
 pub mod visits;
@@ -16,7 +17,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
-use crate::fleet::mqtt::{Mqtt, Order};
+use crate::fleet::mqtt::Mqtt;
+use crate::fleet::orders::Order;
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
 use crate::fleet::persisted_spread::PersistedSpread;
 use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter, VisitorSigns};
@@ -55,6 +57,8 @@ pub struct WindowStatus<'a> {
     pub activity: u64,
     /// Wrong PINs in a row.
     pub wrong_pins: i32,
+    /// Lines of the log that were dropped since nobody read them.
+    pub dropped_lines: usize,
 }
 
 /// A moment by the clock on the wall.
@@ -79,6 +83,8 @@ pub struct Fleet {
     frames: Histogram,
     metrics: Metrics,
     mqtt: Mqtt,
+    /// What distinguishes this kiosk from others on the machine.
+    instance: String,
     began: Instant,
     safe: bool,
     /// Was the last reloaded file, a configuration or an exhibit, valid?
@@ -96,6 +102,7 @@ pub struct Fleet {
 impl Fleet {
     /// For a run that has begun, in safe mode or not.
     pub fn start(store: StateStore, persisted: PersistedState, safe: bool, site: &Config) -> Self {
+        let instance = store.instance();
         Self {
             store,
             before: persisted.counters.clone(),
@@ -103,7 +110,8 @@ impl Fleet {
             visits: VisitCounter::default(),
             frames: Histogram::default(),
             metrics: Metrics::start(site.staff.metrics.clone()),
-            mqtt: Mqtt::start(&site.mqtt),
+            mqtt: Mqtt::start(&site.mqtt, &instance),
+            instance,
             began: Instant::now(),
             spread_at: Instant::now(),
             safe,
@@ -159,7 +167,7 @@ impl Fleet {
         if before.mqtt != site.mqtt {
             // The old connection ends before the new one uses its name.
             self.mqtt = Mqtt::none();
-            self.mqtt = Mqtt::start(&site.mqtt);
+            self.mqtt = Mqtt::start(&site.mqtt, &self.instance);
         }
     }
 
@@ -218,6 +226,7 @@ impl Fleet {
             frames: &self.frames,
             safe: self.safe,
             reloads: self.reloads,
+            dropped_lines: seen.dropped_lines,
             foam_lasts: seen.site.maintenance.foam_blows,
             content: ContentVersion { exhibit: &frame.exhibit.id, version },
         };
@@ -251,9 +260,9 @@ impl Fleet {
         self.persisted.counters.breaths()
     }
 
-    /// The next command of the broker.
-    pub fn order(&self) -> Option<Order> {
-        self.mqtt.order()
+    /// The next command of the broker that is due.
+    pub fn order(&self, now: Instant) -> Option<Order> {
+        self.mqtt.order(now)
     }
 
     /// The run ends in order.
@@ -299,11 +308,13 @@ fn state(seen: &WindowStatus, fleet: &FleetState) -> serde_json::Value {
     })
 }
 
-/// FNV-1a hash, 64 bits, of the exhibit's sidecar as it is when the exhibit is shown.
+/// Hash of the exhibit's sidecar as it is when the exhibit is shown.
 fn version(exhibit: &Exhibit) -> String {
     let bytes = std::fs::read(exhibit.folder.join(SIDECAR)).unwrap_or_default();
-    let hash = bytes
-        .iter()
-        .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
-    format!("{hash:016x}")
+    format!("{:016x}", fnv1a(bytes.into_iter()))
+}
+
+/// FNV-1a hash, 64 bits (Fowler, Noll and Vo).
+fn fnv1a(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

@@ -6,18 +6,19 @@
 //! TOPIC/cmd      commands to the kiosk, see [`Order`]; a retained one is ignored, as it would come again at every start
 //! ```
 //!
-//! The client has a thread of its own and retries for ever with growing pauses. Nothing in the kiosk waits for it.
+//! The client has a thread of its own and retries for ever with growing pauses. Nothing in the kiosk waits for it. Commands wait in
+//! [`Orders`], where a later one replaces an earlier one of its kind: a burst of thousands costs no more than one.
 
-use std::str::FromStr;
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use rumqttc::{Client, Connection, Event, Incoming, LastWill, MqttOptions, Outgoing, QoS};
+use rumqttc::{Client, Connection, Event, Incoming, LastWill, MqttOptions, Outgoing, QoS, TlsConfiguration, Transport};
 
-use soffio_config::{MqttOrder, MqttSettings};
+use super::orders::{Order, Orders};
+use soffio_config::MqttSettings;
 
 /// Least time between two state messages.
 const EVERY: Duration = Duration::from_secs(1);
@@ -27,58 +28,15 @@ const KEEP_ALIVE: Duration = Duration::from_secs(5);
 const PAUSES: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(60)];
 /// Capacity of the client's queue, messages.
 const QUEUE: usize = 16;
+/// Bytes of a command that are read; the longest one is the id of an exhibit.
+const MOST_BYTES: usize = 300;
 /// Longest wait at the end for the last message to be sent.
 const FAREWELL: Duration = Duration::from_millis(300);
-
-/// A command to the kiosk, parsed from the text of a message.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Order {
-    /// `reload`: load the exhibit on show from its files again.
-    Reload,
-    /// `blank`: black screen, no sound, the microphone off.
-    Blank,
-    /// `wake`: end `blank`.
-    Wake,
-    /// `mute` or `mute on`; `mute off`.
-    Mute(bool),
-    /// `exhibit ID`: show another exhibit.
-    Exhibit(String),
-}
-
-impl Order {
-    /// Its kind, as the configuration allows it.
-    pub fn kind(&self) -> MqttOrder {
-        match self {
-            Self::Reload => MqttOrder::Reload,
-            Self::Blank => MqttOrder::Blank,
-            Self::Wake => MqttOrder::Wake,
-            Self::Mute(_) => MqttOrder::Mute,
-            Self::Exhibit(_) => MqttOrder::Exhibit,
-        }
-    }
-}
-
-impl FromStr for Order {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let parts: Vec<&str> = text.split_whitespace().collect();
-        Ok(match parts[..] {
-            ["reload"] => Self::Reload,
-            ["blank"] => Self::Blank,
-            ["wake"] => Self::Wake,
-            ["mute"] | ["mute", "on"] => Self::Mute(true),
-            ["mute", "off"] => Self::Mute(false),
-            ["exhibit", id] => Self::Exhibit(id.to_owned()),
-            _ => return Err("send reload, blank, wake, mute on, mute off, or exhibit and an id".into()),
-        })
-    }
-}
 
 /// Connection to the broker.
 pub struct Mqtt {
     link: Option<BrokerLink>,
-    orders: Receiver<Order>,
+    orders: Arc<Mutex<Orders>>,
     said: Option<Instant>,
 }
 
@@ -87,6 +45,65 @@ struct BrokerLink {
     shared: Arc<Shared>,
     thread: JoinHandle<()>,
     topic: String,
+}
+
+impl BrokerLink {
+    /// Starts the thread; `None` without a broker. The error says which file or thread is missing.
+    fn start(settings: &MqttSettings, instance: &str, orders: &Arc<Mutex<Orders>>) -> Result<Option<Self>, String> {
+        let Some((host, port)) = settings.address() else { return Ok(None) };
+        let mut options = MqttOptions::new(client_id(&machine(), instance), host, port);
+        options.set_keep_alive(KEEP_ALIVE);
+        options.set_last_will(LastWill::new(topic(settings, "status"), "offline", QoS::AtLeastOnce, true));
+        if settings.is_encrypted() {
+            options.set_transport(Transport::Tls(encryption(settings)?));
+        }
+        if !settings.user.is_empty() {
+            options.set_credentials(&settings.user, &settings.password);
+        }
+        let (client, connection) = Client::new(options, QUEUE);
+        let shared = Arc::new(Shared::default());
+        let thread = MqttThread {
+            client: client.clone(),
+            shared: shared.clone(),
+            settings: settings.clone(),
+            orders: orders.clone(),
+        };
+        let thread = std::thread::Builder::new().name("soffio-mqtt".into()).spawn(move || thread.run(connection));
+        let thread = thread.map_err(|error| error.to_string())?;
+        Ok(Some(Self { client, shared, thread, topic: settings.topic.clone() }))
+    }
+}
+
+/// The files of an encrypted connection.
+fn encryption(settings: &MqttSettings) -> Result<TlsConfiguration, String> {
+    let read = |key: &str, file: &Path| {
+        std::fs::read(file)
+            .map_err(|error| format!("no connection: mqtt.{key} = \"{}\" cannot be read: {error}", file.display()))
+    };
+    // Another part of the program may have chosen already: both use the same library.
+    let _ = rustls::crypto::ring::default_provider().install_default();
+    let own = || Ok::<_, String>((read("certificate", &settings.certificate)?, read("key", &settings.key)?));
+    Ok(TlsConfiguration::Simple {
+        ca: read("authority", &settings.authority)?,
+        alpn: None,
+        client_auth: settings.has_certificate().then(own).transpose()?,
+    })
+}
+
+/// Id of the client, 23 characters as MQTT 3.1.1 allows (section 3.1.3.1). Two clients with one id would evict each other for ever, so it
+/// depends on the machine and on the instance, and is the same after a restart.
+fn client_id(machine: &str, instance: &str) -> String {
+    format!("soffio-{:016x}", super::fnv1a([machine, "/", instance].iter().flat_map(|text| text.bytes())))
+}
+
+/// What distinguishes this machine from others: systemd's machine id, else the name of the host. Only a hash of it leaves the machine.
+fn machine() -> String {
+    let files = ["/etc/machine-id", "/var/lib/dbus/machine-id", "/proc/sys/kernel/hostname"];
+    files
+        .iter()
+        .filter_map(|file| std::fs::read_to_string(file).ok())
+        .find(|id| !id.trim().is_empty())
+        .unwrap_or_default()
 }
 
 /// State shared by both threads.
@@ -107,31 +124,14 @@ impl Shared {
 impl Mqtt {
     /// Without a broker.
     pub fn none() -> Self {
-        Self { link: None, orders: channel().1, said: None }
+        Self { link: None, orders: Arc::default(), said: None }
     }
 
-    /// Connects to the site's broker; without one there is no connection and no thread.
-    pub fn start(settings: &MqttSettings) -> Self {
-        let (orders_sender, orders) = channel();
-        let link = settings.address().map(|(host, port)| {
-            let mut options = MqttOptions::new(settings.topic.replace('/', "-"), host, port);
-            options.set_keep_alive(KEEP_ALIVE);
-            options.set_last_will(LastWill::new(topic(settings, "status"), "offline", QoS::AtLeastOnce, true));
-            if !settings.user.is_empty() {
-                options.set_credentials(&settings.user, &settings.password);
-            }
-            let (client, connection) = Client::new(options, QUEUE);
-            let shared = Arc::new(Shared::default());
-            let thread = MqttThread {
-                client: client.clone(),
-                shared: shared.clone(),
-                settings: settings.clone(),
-                orders_sender,
-            };
-            let thread = std::thread::Builder::new().name("soffio-mqtt".into()).spawn(move || thread.run(connection));
-            thread.map(|thread| BrokerLink { client, shared, thread, topic: settings.topic.clone() })
-        });
-        let link = link.transpose().unwrap_or_else(|error| {
+    /// Connects to the site's broker; without one there is no connection and no thread. `instance` distinguishes this kiosk from others
+    /// on the same machine.
+    pub fn start(settings: &MqttSettings, instance: &str) -> Self {
+        let orders = Arc::<Mutex<Orders>>::default();
+        let link = BrokerLink::start(settings, instance, &orders).unwrap_or_else(|error| {
             tracing::warn!("mqtt: {error}");
             None
         });
@@ -157,9 +157,9 @@ impl Mqtt {
         }
     }
 
-    /// The next allowed command.
-    pub fn order(&self) -> Option<Order> {
-        self.orders.try_recv().ok()
+    /// The next allowed command that is due.
+    pub fn order(&self, now: Instant) -> Option<Order> {
+        self.orders.lock().unwrap_or_else(PoisonError::into_inner).next(now)
     }
 }
 
@@ -187,7 +187,7 @@ struct MqttThread {
     client: Client,
     shared: Arc<Shared>,
     settings: MqttSettings,
-    orders_sender: Sender<Order>,
+    orders: Arc<Mutex<Orders>>,
 }
 
 impl MqttThread {
@@ -243,20 +243,21 @@ impl MqttThread {
         if payload.is_empty() {
             return;
         }
-        let text = String::from_utf8_lossy(payload);
-        // Foreign text is logged short and on one line.
+        // Text from outside is logged short and on one line.
+        let text = String::from_utf8_lossy(&payload[..payload.len().min(MOST_BYTES)]);
         let shown: String = text.chars().take(60).filter(|c| !c.is_control()).collect();
-        if retained {
-            return tracing::warn!("mqtt: the retained command \"{shown}\" is ignored: send it without retain");
-        }
-        match text.parse::<Order>() {
+        let refused = match text.parse::<Order>() {
+            _ if retained => format!("the retained command \"{shown}\" is ignored: send it without retain"),
             Ok(order) if self.settings.obeys.contains(&order.kind()) => {
-                tracing::info!("mqtt: command: {shown}");
-                // A closed receiver is about to end.
-                let _ = self.orders_sender.send(order);
+                return self.orders.lock().unwrap_or_else(PoisonError::into_inner).push(order);
             }
-            Ok(_) => tracing::warn!("mqtt: \"{shown}\" is not among mqtt.obeys"),
-            Err(help) => tracing::warn!("mqtt: \"{shown}\" is no command: {help}"),
+            Ok(_) => format!("\"{shown}\" is not among mqtt.obeys"),
+            Err(help) => format!("\"{shown}\" is no command: {help}"),
+        };
+        let orders = &mut self.orders.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(more) = orders.refuse(Instant::now()) {
+            let before = if more > 0 { format!(" ({more} others before it)") } else { String::new() };
+            tracing::warn!("mqtt: {refused}{before}");
         }
     }
 }
@@ -270,27 +271,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn orders_are_words_and_nothing_else_is_obeyed() {
-        for (text, order) in [
-            ("reload", Order::Reload),
-            (" blank\n", Order::Blank),
-            ("wake", Order::Wake),
-            ("mute", Order::Mute(true)),
-            ("mute on", Order::Mute(true)),
-            ("mute off", Order::Mute(false)),
-            ("exhibit terry-clock", Order::Exhibit("terry-clock".into())),
-        ] {
-            assert_eq!(text.parse(), Ok(order), "{text}");
-        }
-        for text in ["", "Reload", "exhibit", "exhibit a b", "mute maybe", "reload now", "shutdown"] {
-            assert!(text.parse::<Order>().is_err_and(|help| help.contains("exhibit and an id")), "{text}");
-        }
+    fn without_a_broker_there_is_no_line_and_nobody_is_asked_for_the_state() {
+        let mut mqtt = Mqtt::start(&MqttSettings::default(), "");
+        mqtt.update(Instant::now(), || unreachable!("nobody wants to know"));
+        assert!(mqtt.link.is_none() && mqtt.order(Instant::now()).is_none());
+    }
+    #[test]
+    fn each_kiosk_has_an_id_of_its_own_that_a_restart_keeps() {
+        let ids = [client_id("m1", "/a"), client_id("m1", "/b"), client_id("m2", "/a"), client_id("m", "1//a")];
+        assert!(ids.iter().all(|id| id.len() == 23 && id.is_ascii()), "{ids:?}");
+        let distinct: std::collections::BTreeSet<_> = ids.iter().collect();
+        assert!(distinct.len() == ids.len() && ids[0] == client_id("m1", "/a"), "{ids:?}");
     }
 
     #[test]
-    fn without_a_broker_there_is_no_line_and_nobody_is_asked_for_the_state() {
-        let mut mqtt = Mqtt::start(&MqttSettings::default());
-        mqtt.update(Instant::now(), || unreachable!("nobody wants to know"));
-        assert!(mqtt.link.is_none() && mqtt.order().is_none());
+    fn a_file_that_is_missing_is_named_and_nothing_is_sent_unencrypted() {
+        let settings = MqttSettings {
+            broker: "127.0.0.1:1".into(),
+            authority: "/nowhere/ca.pem".into(),
+            ..MqttSettings::default()
+        };
+        let error = BrokerLink::start(&settings, "", &Arc::default()).err().unwrap_or_default();
+        assert!(error.contains("mqtt.authority = \"/nowhere/ca.pem\""), "{error}");
     }
 }

@@ -169,6 +169,12 @@ impl StateStore {
         (Self { writer: Some(Writer::start("state", file)), folder: Some(folder), ..Self::default() }, state)
     }
 
+    /// What distinguishes this kiosk from others on the same machine: its folder, or its process where nothing is kept.
+    pub fn instance(&self) -> String {
+        let folder = self.folder.as_ref().map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.clone()));
+        folder.map_or_else(|| std::process::id().to_string(), |folder| folder.to_string_lossy().into_owned())
+    }
+
     /// Writes the begin of a run at once, before it can crash.
     pub fn begin(&mut self, state: &PersistedState) {
         let Some(folder) = &self.folder else { return };

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::app::App;
-use crate::fleet::mqtt::Order;
+use crate::fleet::orders::Order;
 use crate::fleet::{SAFE_MODE, WindowStatus};
 use crate::live::LiveState;
 use crate::venue::loudness::VolumeRequests;
@@ -39,16 +39,18 @@ impl App<'_> {
             language: &self.overlays.languages.shown,
             activity: self.visit.visitor.activity(),
             wrong_pins: self.desk.panel.gate().wrong(),
+            dropped_lines: self.desk.log.dropped(),
         };
         self.fleet.update(now, &seen);
-        while let Some(order) = self.fleet.order() {
+        // One in each turn of the loop, so that pictures, signals and the visitor come first.
+        if let Some(order) = self.fleet.order(now) {
             self.obey(order, &frame);
         }
     }
 
     fn obey(&mut self, order: Order, frame: &LiveState) {
         match order {
-            Order::Reload => self.exhibits.loader.show(&frame.exhibit.folder),
+            Order::Reload => self.exhibits.request(&frame.exhibit.folder),
             Order::Blank | Order::Wake => {
                 let open = self.venue.is_open();
                 self.venue.set_blank(order == Order::Blank);

@@ -42,12 +42,21 @@ fn every_number_is_a_line_of_the_format_and_silence_is_left_out() {
     let content = ContentVersion { exhibit: "pendulum", version: "00ff" };
     let text = text(
         &frame(load),
-        &MetricsInput { persisted: &kept, frames: &frames, safe: true, reloads: false, foam_lasts: 100, content },
+        &MetricsInput {
+            persisted: &kept,
+            frames: &frames,
+            safe: true,
+            reloads: false,
+            dropped_lines: 3,
+            foam_lasts: 100,
+            content,
+        },
     );
     for line in [
         "kiosk_up 1",
         "kiosk_starts_total 7",
         "kiosk_safe_mode 1",
+        "kiosk_log_lines_dropped_total 3",
         "kiosk_last_reload_success 0",
         "kiosk_content_info{exhibit=\"pendulum\",version=\"00ff\"} 1",
         "kiosk_audio_xruns_total 3",
@@ -103,6 +112,7 @@ fn what_the_detector_knows_of_the_room_is_persisted_every_ten_minutes() {
             language: "en",
             activity: 0,
             wrong_pins: 0,
+            dropped_lines: 0,
         };
         fleet.update(began + Duration::from_secs(seconds), &seen);
         fleet.persisted().ambient_spread.clone()
@@ -118,6 +128,7 @@ fn the_alerts_and_the_board_ask_for_numbers_that_there_are() {
         frames: &Histogram::default(),
         safe: false,
         reloads: true,
+        dropped_lines: 0,
         foam_lasts: 5000,
         content: ContentVersion { exhibit: "pendulum", version: "" },
     };
@@ -209,4 +220,15 @@ fn a_broker_has_a_host_a_port_and_a_topic_of_its_own() {
         assert_eq!(error.problems.len(), 1, "{error}");
         assert_eq!((error.problems[0].line, error.problems[0].column), place, "{error}");
     }
+    let encrypted = |more: &str| Config::parse(&format!("[mqtt]\nbroker = \"hub\"\n{more}"), Path::new("kiosk.toml"));
+    let good = encrypted("authority = \"ca.pem\"\n").expect("good").mqtt;
+    assert_eq!(good.address(), Some(("hub", 8883)), "the port of encrypted connections");
+    for half in ["certificate = \"own.pem\"\n", "certificate = \"own.pem\"\nkey = \"own.key\"\n"] {
+        let error = encrypted(half).expect_err("refused");
+        assert!(
+            error.to_string().contains("kiosk.toml:3:") && error.to_string().contains("give certificate, key and"),
+            "{error}"
+        );
+    }
+    assert!(Config::default().mqtt.obeys.is_empty(), "a kiosk obeys nobody that its site has not named");
 }
