@@ -139,6 +139,23 @@ crash_loop() {
     bar "crash loop: safe mode" "$saw == 1 && \"$(state on_show)\" == \"pendulum\" && $(state start_crashes) == 3" \
         "$(state start_crashes) crashes, $(state on_show) on show, $saw messages for staff"
     end_launcher || true
+    # With another exhibit on offer, the one that was on show is set aside instead.
+    rm -rf "$workdir/home/.local/state/soffio"
+    configured "$workdir/two.toml" '[exhibits]\nfolder = "%s"\nshow = ["steel-fish", "chains"]\n' "$root/exhibits"
+    launch_kiosk two --config "$workdir/two.toml" --no-attract
+    for i in 1 2 3; do
+        within 20 pixels two "$i" || true
+        sleep 0.5
+        kill -9 "$(child)"
+    done
+    within 20 pixels two 4 || true
+    within 20 picture || true
+    sleep 2.5
+    saw=$(grep -c 'steel-fish is set aside' "$workdir/two.err" || true)
+    bar "crash loop: set aside" "$saw >= 1 && \"$(state on_show)\" == \"chains\" && $(grep -c 'safe mode' "$workdir/two.err") == 0" \
+        "$(state on_show) on show, $saw messages for staff"
+    end_launcher || true
+    rm -rf "$workdir/home/.local/state/soffio"
     # Where no state can be stored, the launcher counts.
     XDG_STATE_HOME=/dev/null launch_kiosk unkept --exhibit "$exhibit" --no-attract
     for i in 1 2 3; do

@@ -555,11 +555,15 @@ no_devices() {
 no_display() {
     mkdir "$workdir/headless"
     local code=0
-    (cd "$workdir/headless" && env -u DISPLAY timeout 120 "$soffio" kiosk --exhibit "$exhibit") \
+    (cd "$workdir/headless" && env -u DISPLAY timeout 20 "$soffio" kiosk --exhibit "$exhibit") \
+        >"$workdir/headless.out" 2>"$workdir/headless.err" || code=$?
+    bar "no display: says so" "$code == 3 && $(find "$workdir/headless" -type f | wc -l) == 0" "exit code $code, no demonstration unasked"
+    code=0
+    (cd "$workdir/headless" && env -u DISPLAY timeout 120 "$soffio" kiosk --demo --exhibit "$exhibit") \
         >"$workdir/headless.out" 2>"$workdir/headless.err" || code=$?
     local files
     files=$(cd "$workdir/headless/out" && find . -size +1k -name 'steel-fish.*' -printf '%f\n' | sort | xargs)
-    bar "no display: keeps running" "$code == 0 && \"$files\" ~ /csv/ && \"$files\" ~ /wav/" "exit code $code, left $files"
+    bar "no display: the demo" "$code == 0 && \"$files\" ~ /csv/ && \"$files\" ~ /wav/" "exit code $code, left $files"
 }
 
 parts=${SOFFIO_LIVE_PARTS-${live_parts[*]}}

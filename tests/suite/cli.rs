@@ -311,9 +311,17 @@ fn a_reference_picture_needs_no_driver() {
 
 #[cfg(feature = "kiosk")]
 #[test]
-fn the_kiosk_without_a_display_plays_a_breath_and_names_its_files() {
+fn the_kiosk_without_a_display_says_so_and_demonstrates_only_if_asked() {
     let desk = Desk::new();
-    let run = desk.soffio(&["kiosk", "--for", "1", "--exhibit", text(&fish())]);
+    let kiosk = ["kiosk", "--for", "1", "--exhibit", text(&fish())];
+    let run = desk.soffio(&kiosk);
+    assert!(
+        run.code == Some(3) && run.err.contains("--demo") && desk.files().is_empty(),
+        "{:?}: {}",
+        run.code,
+        run.err
+    );
+    let run = desk.soffio(&[&kiosk[..], &["--demo"]].concat());
     run.done();
     assert!(run.err.contains("no display"), "{}", run.err);
     for name in ["out/steel-fish.wav", "out/steel-fish.csv"] {

@@ -67,9 +67,12 @@ pub struct Args {
     /// Writes all inputs of the simulation, for `soffio replay`; never a sound
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
-    /// Safe mode: one built-in exhibit, no controllers, no remote commands; automatic after three crashes of the start
+    /// Safe mode: one built-in exhibit, no controllers, no remote commands; automatic where the start crashes again and again
     #[arg(long)]
     safe: bool,
+    /// Without a display or graphics: plays the exhibit to its recorded breath and leaves a picture, a sound and a trace in out/
+    #[arg(long)]
+    demo: bool,
     /// Draws with the shaders in this folder, and reloads them when one changes
     #[arg(long, value_name = "FOLDER", hide = true)]
     shaders: Option<PathBuf>,
@@ -98,7 +101,8 @@ pub fn run(args: Args) -> Outcome {
         None => tracing::info!("configuration: built in"),
     }
     let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract, safe: false };
-    let begun = supervised::begin(&overrides.apply(config.clone()), args.safe);
+    let places = source(&config, args.exhibit.as_deref())?;
+    let mut begun = supervised::begin(&overrides.apply(config.clone()), catalog::folders(&places), args.safe);
     if let Some(file) = file.as_ref().filter(|_| problem.is_none()) {
         begun.store.save_good_config(file);
     }
@@ -108,8 +112,9 @@ pub fn run(args: Args) -> Outcome {
     let built_in = if begun.safe { supervised::built_in() } else { None };
     let (exhibit, places) = match &built_in {
         Some(built_in) => (built_in.exhibit.clone(), ExhibitSource::One(built_in.exhibit.folder.clone())),
-        None => choose(&config, args.exhibit.as_deref(), begun.restored_exhibit())?,
+        None => (choose(&config, &begun)?, places),
     };
+    begun.announce(&exhibit.id);
     let recording = args.breath.map(wav::read).transpose().map_err(Failure::input)?;
     let site = Site::new(&config, args.seed.unwrap_or(DEFAULT_SEED));
     let settings = site.settings;
@@ -134,27 +139,27 @@ pub fn run(args: Args) -> Outcome {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),
         Ok(Ended::Failed(message)) => Err(Failure::device(message)),
-        // After a restart the supervisor waits for the display; it needs no demonstration.
-        Err(Missing::Display(why) | Missing::Graphics(why)) if supervised::is_restart() => Err(Failure::device(why)),
-        Err(missing) => headless(&missing, &exhibit, settings, &stop),
+        Err(missing) if args.demo => demonstrate(&missing, &exhibit, settings, &stop),
+        Err(missing) => Err(Failure::device(explain(&missing))),
     }
 }
 
-/// The first exhibit, and the source of the others: one exhibit alone, or the first configured one that loads. After a crash
-/// the exhibit that was on show comes first. Exhibits that do not load are reported and skipped.
-fn choose(config: &Config, only: Option<&str>, last: Option<&str>) -> Result<(Arc<Exhibit>, ExhibitSource), Failure> {
-    if let Some(only) = only {
-        let exhibit = setup::open(only)?;
-        let places = ExhibitSource::One(exhibit.folder.clone());
-        return Ok((exhibit, places));
+/// Where the exhibits come from: one alone, or those of the configuration.
+fn source(config: &Config, only: Option<&str>) -> Result<ExhibitSource, Failure> {
+    match only {
+        Some(only) => soffio_exhibit::resolve(only).map(ExhibitSource::One).map_err(Failure::input),
+        None => Ok(ExhibitSource::All { folder: config.exhibits.folder.clone(), show: config.exhibits.show.clone() }),
     }
-    let places = ExhibitSource::All { folder: config.exhibits.folder.clone(), show: config.exhibits.show.clone() };
+}
+
+/// The first exhibit that loads. After a crash the one that was on show comes first, and those that are set aside are left out.
+/// Exhibits that do not load are reported and skipped.
+fn choose(config: &Config, begun: &supervised::Begun) -> Result<Arc<Exhibit>, Failure> {
+    let marker = begun.store.load_marker();
     let mut failure = None;
-    let mut folders = catalog::folders(&places);
-    folders.sort_by_key(|folder| Some(catalog::id(folder).as_str()) != last);
-    for folder in folders {
-        match setup::open(&folder.to_string_lossy()) {
-            Ok(exhibit) => return Ok((exhibit, places)),
+    for folder in begun.folders() {
+        match marker.during(&catalog::id(folder), || setup::open(&folder.to_string_lossy())) {
+            Ok(exhibit) => return Ok(exhibit),
             Err(error) => {
                 tracing::error!("{}", error.message.trim_end());
                 failure = failure.or(Some(error));
@@ -179,17 +184,21 @@ fn summarize(report: &Report, planned: bool) -> Outcome {
     Ok(())
 }
 
-/// The same exhibit without a window: a picture, a sound and a trace.
-fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop: &AtomicBool) -> Outcome {
+/// Why there is no live kiosk, and what to do.
+fn explain(missing: &Missing) -> String {
     match missing {
-        Missing::Display(why) => eprintln!(
-            "soffio: no display to open a window on ({why}). Start it where DISPLAY or WAYLAND_DISPLAY is set."
+        Missing::Display(why) => format!(
+            "no display to open a window on ({why}). Start it where DISPLAY or WAYLAND_DISPLAY is set; --demo plays an exhibit without one"
         ),
-        Missing::Graphics(why) => eprintln!(
-            "soffio: no graphics adapter for the window ({why}). Install a Vulkan driver; mesa-vulkan-drivers has one \
-             for every machine."
+        Missing::Graphics(why) => format!(
+            "no graphics adapter for the window ({why}). Install a Vulkan driver; mesa-vulkan-drivers has one for every machine"
         ),
     }
+}
+
+/// The same exhibit without a window: a picture, a sound and a trace.
+fn demonstrate(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop: &AtomicBool) -> Outcome {
+    eprintln!("soffio: {}.", explain(missing));
     eprintln!("soffio: {} runs without a window instead, on a recorded breath.", exhibit.id);
     let demo = match demo::run(exhibit, settings, Path::new(OUT), stop) {
         Ok(demo) => demo,
@@ -208,7 +217,7 @@ fn headless(missing: &Missing, exhibit: &Arc<Exhibit>, settings: Settings, stop:
 
 /// Logs go to stderr, and their last lines to the staff panel; `RUST_LOG` says how much. The sound server's client calls
 /// its own orderly end an error. The guard writes the last lines at the end.
-fn log_to_stderr(log: &Log) -> impl Drop {
+fn log_to_stderr(log: &Log) -> impl Drop + use<> {
     let requested = std::env::var("RUST_LOG").ok().and_then(|filter| filter.parse::<Targets>().ok());
     let usual = || {
         let levels = [("soffio", LevelFilter::INFO), ("pulseaudio", LevelFilter::OFF)];

@@ -1,26 +1,29 @@
 //! A kiosk that somebody starts again when it has died: `kiosk-config/launch`, or systemd.
 
+use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::SystemTime;
 
 use soffio_authoring::template::Template;
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::fleet::persisted::{PersistedState, StateStore, folder, last_good};
+use soffio_kiosk::fleet::persisted::{EXHIBIT_AFTER, PersistedState, StateStore, folder, last_good};
+use soffio_kiosk::venue::catalog::id;
 
-/// Set by the launcher from the second start on.
-const RESTARTED: &str = "SOFFIO_RESTARTED";
+/// Number of crashes in a row within a minute of their start; set by the launcher from the second start on.
+const CRASHES: &str = "SOFFIO_CRASHES";
 /// Set by systemd for a unit of `Type=notify`.
 const NOTIFIED: &str = "NOTIFY_SOCKET";
 
-/// Did the launcher start this run because the last one died?
-pub fn is_restart() -> bool {
-    std::env::var_os(RESTARTED).is_some()
+/// Crashes before this run that the launcher has counted; `None` at its first start, or without it.
+fn crashes() -> Option<u32> {
+    std::env::var(CRASHES).ok()?.parse().ok()
 }
 
 /// The last configuration that was good, where nobody is there to mend a broken one: then the kiosk shows what it
 /// showed, and says what is wrong.
 pub fn config_in_need(error: &ConfigError) -> Option<Config> {
-    if !is_restart() && std::env::var_os(NOTIFIED).is_none() {
+    if crashes().is_none() && std::env::var_os(NOTIFIED).is_none() {
         return None;
     }
     let config = last_good(&error.file)?;
@@ -36,24 +39,42 @@ pub struct Begun {
     pub persisted: PersistedState,
     /// Is this one in safe mode?
     pub safe: bool,
-    died: bool,
+    /// Folders of the exhibits that are not set aside; all of them if none is left.
+    folders: Vec<PathBuf>,
 }
 
-/// Begins a run: counts it, and logs a crash of the one before.
-pub fn begin(config: &Config, asked_safe: bool) -> Begun {
+/// Begins a run: counts it, and logs a crash of the one before. `folders` are those of all exhibits, in order.
+pub fn begin(config: &Config, mut folders: Vec<PathBuf>, asked_safe: bool) -> Begun {
     let (mut store, mut persisted) = StateStore::open(folder(config));
-    let died = persisted.begin();
+    let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs() as i64);
+    let died = persisted.begin(store.load_marker().take(), now);
+    // Where no state is kept, the launcher counts.
+    persisted.start_crashes = persisted.start_crashes.max(crashes().unwrap_or_default());
     store.begin(&persisted);
     if died {
         tracing::warn!("the run before this one crashed; start {} restores its state", persisted.starts);
+        folders.sort_by_key(|folder| id(folder) != persisted.on_show);
     }
-    Begun { store, safe: asked_safe || persisted.wants_safe_mode(), persisted, died }
+    let mut left = folders.clone();
+    left.retain(|folder| !persisted.quarantine.contains(&id(folder)));
+    if !store.is_kept() {
+        // Nobody knows what was on show: the first exhibits are left out, one for so many crashes.
+        left.drain(..left.len().min((persisted.start_crashes / EXHIBIT_AFTER) as usize));
+    }
+    let safe = asked_safe || persisted.wants_safe_mode(!left.is_empty());
+    Begun { store, safe, persisted, folders: if left.is_empty() { folders } else { left } }
 }
 
 impl Begun {
-    /// The exhibit that was on show at a crash; `None` after an orderly end.
-    pub fn restored_exhibit(&self) -> Option<&str> {
-        self.died.then_some(self.persisted.on_show.as_str())
+    /// Folders of the exhibits that may be shown, the first one first. After a crash that is the one that was on show.
+    pub fn folders(&self) -> &[PathBuf] {
+        &self.folders
+    }
+
+    /// Persists which exhibit is on show from now on, before it can crash.
+    pub fn announce(&mut self, id: &str) {
+        self.persisted.on_show = id.to_owned();
+        self.store.begin(&self.persisted);
     }
 }
 

@@ -7,6 +7,7 @@ pub(crate) mod mqtt;
 pub(crate) mod orders;
 pub mod persisted;
 pub mod persisted_spread;
+pub mod quarantine;
 pub mod visits;
 #[cfg(target_os = "linux")]
 pub(crate) mod watchdog;
@@ -21,6 +22,7 @@ use crate::fleet::mqtt::Mqtt;
 use crate::fleet::orders::Order;
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
 use crate::fleet::persisted_spread::PersistedSpread;
+use crate::fleet::quarantine::LoadMarker;
 use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter, VisitorSigns};
 use crate::live::LiveState;
 use crate::venue::loudness::VolumeRequests;
@@ -38,7 +40,7 @@ const SELF_TEST_WAITS_MIN: u16 = 60;
 const SPREAD_EVERY: Duration = Duration::from_secs(600);
 
 /// Message about safe mode for staff.
-pub const SAFE_MODE: &str = "safe mode: the kiosk crashed three times within a minute of its start, so it shows one built-in \
+pub const SAFE_MODE: &str = "safe mode: the kiosk crashed again and again within a minute of its start, so it shows one built-in \
                              exhibit and ignores controllers. The log before says why it crashed; a restart tries again";
 
 /// State of the window, for counters, metrics and reports.
@@ -130,6 +132,27 @@ impl Fleet {
     /// Is it in safe mode?
     pub fn is_safe(&self) -> bool {
         self.safe
+    }
+
+    /// What staff must know of the runs before this one: safe mode, and the exhibits that are set aside.
+    pub fn problems(&self) -> Vec<String> {
+        let set_aside = self.persisted.quarantine.set_aside().map(|id| {
+            format!(
+                "{id} is set aside: the kiosk crashed again and again while it was loaded or shown. It is offered again when \
+                 its files change, or after a day"
+            )
+        });
+        self.safe.then(|| SAFE_MODE.into()).into_iter().chain(set_aside).collect()
+    }
+
+    /// Offers an exhibit again that was set aside, since its files have changed. Returns whether it was.
+    pub fn release(&mut self, id: &str) -> bool {
+        self.persisted.quarantine.release(id)
+    }
+
+    /// Names the exhibit that is being loaded.
+    pub fn load_marker(&self) -> LoadMarker {
+        self.store.load_marker()
     }
 
     /// Requests that restore the loudness as staff left it.

@@ -1,8 +1,9 @@
 //! Persisted state: counters, settings of staff, and how the last run ended. One small JSON file, replaced as a whole. It
 //! holds counts and settings, and nothing about a person.
 //!
-//! A run after a crash restores the exhibit on show, the mute and blank state, and the count of wrong PINs. Crashes within a
-//! minute of the start are counted; after [`SAFE_MODE_AFTER`] of them in a row the next run is in safe mode.
+//! A run after a crash restores the exhibit on show, the mute and blank state, and the count of wrong PINs. Each crash counts for the
+//! exhibit that was loaded or shown, see [`super::quarantine`]. Crashes within a minute of the start are counted too; where setting exhibits aside
+//! does not end them, the next run is in safe mode.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use crate::fleet::persisted_spread::PersistedSpread;
+use crate::fleet::quarantine::{LoadMarker, Quarantine};
 use crate::fleet::visits::Histogram;
 use crate::fleet::writer::{Writer, write};
 use crate::step::breaths::BreathSource;
@@ -21,8 +23,10 @@ use soffio_config::Config;
 
 /// Age of a run from which a crash does not count as one of the start.
 pub const SETTLED: Duration = Duration::from_secs(60);
-/// Crashes of the start in a row that lead to safe mode. One may be chance; three are the file or the device.
-pub const SAFE_MODE_AFTER: u32 = 3;
+/// Crashes of the start in a row that lead to safe mode where no other exhibit is left. One may be chance; three are the file.
+pub const EXHIBIT_AFTER: u32 = 3;
+/// Crashes of the start in a row that lead to safe mode whatever is on show: two exhibits were set aside, so it is something else.
+pub const SAFE_MODE_AFTER: u32 = 2 * EXHIBIT_AFTER;
 /// Least time between two writes.
 const EVERY: Duration = Duration::from_secs(1);
 /// Names of the state file, and of the copy of the last valid configuration beside it.
@@ -56,6 +60,8 @@ pub struct PersistedState {
     pub starts: u64,
     /// Id of the exhibit on show.
     pub on_show: String,
+    /// Exhibits that are set aside after crashes.
+    pub quarantine: Quarantine,
     /// Muted by staff?
     pub muted: bool,
     /// What decides whether it is night.
@@ -99,18 +105,24 @@ impl Counters {
 }
 
 impl PersistedState {
-    /// Begins a run. Returns whether the one before it crashed.
-    pub fn begin(&mut self) -> bool {
+    /// Begins a run at `now`, seconds since 1970. Returns whether the one before it crashed; `loading` is the exhibit that it was
+    /// loading then, if not the one on show.
+    pub fn begin(&mut self, loading: Option<String>, now: i64) -> bool {
         let crashed = self.phase != RunPhase::Ended;
+        self.quarantine.expire(now);
+        let id = loading.unwrap_or_else(|| self.on_show.clone());
+        if crashed && !id.is_empty() && self.quarantine.record(&id, now) {
+            tracing::error!("{id} is set aside: the kiosk crashed again and again while it was loaded or shown");
+        }
         self.start_crashes = if self.phase == RunPhase::Young { self.start_crashes.saturating_add(1) } else { 0 };
         self.phase = RunPhase::Young;
         self.starts += 1;
         crashed
     }
 
-    /// Did too many runs crash at their start?
-    pub fn wants_safe_mode(&self) -> bool {
-        self.start_crashes >= SAFE_MODE_AFTER
+    /// Did too many runs crash at their start? `others`: is an exhibit left that is not set aside?
+    pub fn wants_safe_mode(&self, others: bool) -> bool {
+        self.start_crashes >= if others { SAFE_MODE_AFTER } else { EXHIBIT_AFTER }
     }
 }
 
@@ -173,6 +185,16 @@ impl StateStore {
     pub fn instance(&self) -> String {
         let folder = self.folder.as_ref().map(|folder| folder.canonicalize().unwrap_or_else(|_| folder.clone()));
         folder.map_or_else(|| std::process::id().to_string(), |folder| folder.to_string_lossy().into_owned())
+    }
+
+    /// Names the exhibit that is being loaded.
+    pub fn load_marker(&self) -> LoadMarker {
+        LoadMarker::new(self.folder.as_deref())
+    }
+
+    /// Is the state kept after this run?
+    pub fn is_kept(&self) -> bool {
+        self.folder.is_some()
     }
 
     /// Writes the begin of a run at once, before it can crash.
@@ -274,18 +296,39 @@ mod tests {
     }
 
     #[test]
-    fn three_crashes_in_the_first_minute_ask_for_safe_mode_and_a_long_run_or_an_orderly_end_forgets_them() {
+    fn crashes_in_the_first_minute_ask_for_safe_mode_and_a_long_run_or_an_orderly_end_forgets_them() {
         let mut state = PersistedState::default();
-        assert!(!state.begin(), "the first run follows nobody");
+        assert!(!state.begin(None, 0), "the first run follows nobody");
         for crash in 1..=SAFE_MODE_AFTER {
-            assert!(state.begin());
-            assert_eq!((state.start_crashes, state.wants_safe_mode()), (crash, crash >= SAFE_MODE_AFTER));
+            assert!(state.begin(None, 0));
+            let wants = [false, true].map(|others| state.wants_safe_mode(others));
+            assert_eq!((state.start_crashes, wants), (crash, [crash >= EXHIBIT_AFTER, crash >= SAFE_MODE_AFTER]));
         }
         state.phase = RunPhase::Settled;
-        assert!(state.begin() && state.start_crashes == 0, "a long run was no crash of its start");
-        state.begin();
+        assert!(state.begin(None, 0) && state.start_crashes == 0, "a long run was no crash of its start");
+        state.begin(None, 0);
         state.phase = RunPhase::Ended;
-        assert!(!state.begin() && state.start_crashes == 0 && state.starts == 7);
+        assert!(!state.begin(None, 0) && state.start_crashes == 0 && state.starts == 10);
+    }
+
+    #[test]
+    fn a_crash_counts_for_the_exhibit_that_was_loaded_or_else_shown_however_late_it_comes() {
+        let mut state =
+            PersistedState { phase: RunPhase::Settled, on_show: "clock".into(), ..PersistedState::default() };
+        for now in 0..3 {
+            assert!(!state.quarantine.contains("bad"));
+            assert!(state.begin(Some("bad".into()), now));
+            state.phase = RunPhase::Settled;
+        }
+        assert!(state.quarantine.contains("bad") && !state.quarantine.contains("clock"));
+        (3..6).for_each(|now| {
+            state.begin(None, now);
+            state.phase = RunPhase::Settled;
+        });
+        assert!(state.quarantine.contains("clock"), "it crashed after the first minute, and counts");
+        state.phase = RunPhase::Ended;
+        state.begin(Some("cart".into()), 7);
+        assert_eq!(state.quarantine.set_aside().collect::<Vec<_>>(), ["bad", "clock"], "an orderly end is no crash");
     }
 
     #[test]
@@ -294,7 +337,7 @@ mod tests {
         let path = folder.path().join("in/state");
         let (mut store, mut state) = StateStore::open(Some(path.clone()));
         assert_eq!(state, PersistedState::default());
-        state.begin();
+        state.begin(None, 0);
         store.begin(&state);
         assert_eq!(StateStore::open(Some(path.clone())).1.phase, RunPhase::Young, "at once");
         state.on_show = "clock".into();

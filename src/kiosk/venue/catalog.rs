@@ -14,6 +14,7 @@ use std::time::Duration;
 use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
+use crate::fleet::quarantine::{LoadMarker, Quarantine};
 use soffio_config::OTHERS;
 use soffio_exhibit::{self as exhibit, Exhibit, Labels};
 use soffio_render::{Baked, Lighting};
@@ -81,14 +82,25 @@ pub struct CatalogLoader {
 
 impl CatalogLoader {
     /// Loads the exhibits there, and reloads changed ones if `watched`; `shown` is the folder on show. Where watching is
-    /// impossible the reason is logged, and requests still work.
-    pub fn new(places: &ExhibitSource, shown: &Path, watched: bool) -> Self {
+    /// impossible the reason is logged, and requests still work. Exhibits of `quarantine` are loaded only when they have changed.
+    pub fn new(
+        places: &ExhibitSource,
+        shown: &Path,
+        watched: bool,
+        quarantine: &Quarantine,
+        marker: LoadMarker,
+    ) -> Self {
         let (requests, incoming) = channel::<CatalogRequest>();
         let (sender, events) = channel();
         let mut worker = Worker {
             events: sender,
-            queue: folders(places).into_iter().map(|folder| (folder, false)).collect(),
+            queue: folders(places)
+                .into_iter()
+                .filter(|folder| !quarantine.contains(&id(folder)))
+                .map(|folder| (folder, false))
+                .collect(),
             shown: shown.to_path_buf(),
+            marker,
         };
         let thread = std::thread::Builder::new().name("soffio-exhibits".into()).spawn(move || worker.run(&incoming));
         if let Err(error) = thread {
@@ -134,6 +146,8 @@ struct Worker {
     /// Folders to load, and whether they have changed.
     queue: VecDeque<(PathBuf, bool)>,
     shown: PathBuf,
+    /// Names the exhibit that is being loaded, for a run after a crash.
+    marker: LoadMarker,
 }
 
 impl Worker {
@@ -184,16 +198,13 @@ impl Worker {
     }
 
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {
-        let event = match exhibit::load(&folder) {
-            Ok(exhibit) => {
-                let event = lit(exhibit);
-                if let CatalogEvent::Show(..) = event {
-                    self.shown = folder;
-                }
-                event
-            }
+        let event = self.marker.during(&id(&folder), || match exhibit::load(&folder) {
+            Ok(exhibit) => lit(exhibit),
             Err(report) => CatalogEvent::Failed(report.to_string()),
-        };
+        });
+        if let CatalogEvent::Show(..) = event {
+            self.shown = folder;
+        }
         self.events.send(event).map_err(drop)
     }
 
@@ -202,7 +213,7 @@ impl Worker {
         if !is_exhibit(folder) {
             return self.events.send(CatalogEvent::Removed(id)).map_err(drop);
         }
-        let events = match exhibit::load(folder) {
+        let events = match self.marker.during(&id, || exhibit::load(folder)) {
             Ok(exhibit) => {
                 let entry = CatalogEntry {
                     id,
@@ -211,7 +222,8 @@ impl Worker {
                     thumbnail: thumbnail(folder),
                 };
                 if changed && folder == self.shown {
-                    self.events.send(lit(exhibit)).map_err(drop)?;
+                    let event = self.marker.during(&entry.id, || lit(exhibit));
+                    self.events.send(event).map_err(drop)?;
                 }
                 CatalogEvent::Listed(Box::new(entry))
             }

@@ -95,7 +95,7 @@ impl<'a> App<'a> {
             if ground.fleet.is_safe() { Translations::default() } else { Translations::load(ground.file.as_deref()) };
         let Launch { config, overrides, file, problem, warnings, log, fleet, lose_device_at, shaders } = ground;
         Self {
-            exhibits: ExhibitSelection::new(places, &options.exhibit.folder, config.exhibits.hot_reload),
+            exhibits: ExhibitSelection::new(places, &options.exhibit.folder, config.exhibits.hot_reload, &fleet),
             visit: VisitState::new(&config, fleet.persisted().breath_time.clone()),
             setup: Setup {
                 seed: options.site.settings.seed,

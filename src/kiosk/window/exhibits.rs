@@ -31,6 +31,9 @@ impl App<'_> {
             }
             CatalogEvent::Listed(exhibit) => {
                 self.exhibits.thumbnails.retain(|(id, _)| *id != exhibit.id);
+                if self.fleet.release(&exhibit.id) {
+                    self.say(format!("{} is offered again: its files have changed", exhibit.id));
+                }
                 self.exhibits.offer.insert(*exhibit);
             }
             CatalogEvent::Rejected(id, report) => {

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use super::app::App;
+use crate::fleet::WindowStatus;
 use crate::fleet::orders::Order;
-use crate::fleet::{SAFE_MODE, WindowStatus};
 use crate::live::LiveState;
 use crate::venue::loudness::VolumeRequests;
 
@@ -15,9 +15,9 @@ impl App<'_> {
         self.desk.panel.gate().remember(wrong, self.pacing.time());
         self.venue.set_blank(blank);
         self.fleet.record_reload(self.setup.problems.is_empty(), None);
-        if self.fleet.is_safe() {
-            self.say(SAFE_MODE.into());
-            self.setup.problems.push(SAFE_MODE.into());
+        for problem in self.fleet.problems() {
+            self.say(problem.clone());
+            self.setup.problems.push(problem);
         }
         self.setup.problems.append(&mut self.setup.warnings);
     }

@@ -76,7 +76,7 @@ impl App<'_> {
                 }
             };
             self.fleet.record_reload(true, self.setup.file.as_ref().map(|file| file.path.as_path()));
-            let change = match self.setup.take_over(loaded, self.fleet.is_safe()) {
+            let change = match self.setup.take_over(loaded, self.fleet.problems()) {
                 Ok(change) => change,
                 Err(was_broken) => {
                     if was_broken {
@@ -90,7 +90,7 @@ impl App<'_> {
                 self.reset_accessibility();
             }
             if change.reordered {
-                self.exhibits.reorder(&self.setup.config);
+                self.exhibits.reorder(&self.setup.config, &self.fleet.persisted().quarantine);
             }
             self.send(KioskCommand::Site(Box::new(self.setup.site())));
             self.say("the changed configuration is taken over".into());

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
+use soffio_kiosk::fleet::quarantine::{LoadMarker, Quarantine};
 use soffio_kiosk::venue::catalog::{Catalog, CatalogEvent, CatalogLoader, ExhibitSource, folders, id};
 
 use crate::sound::own_timbres::{self, WHIRR};
@@ -17,7 +18,13 @@ fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let copy = folder.path().join("steel-fish");
     copy_folder(&shipped, &copy);
-    let shelf = CatalogLoader::new(&ExhibitSource::One(copy.clone()), &copy, true);
+    let shelf = CatalogLoader::new(
+        &ExhibitSource::One(copy.clone()),
+        &copy,
+        true,
+        &Quarantine::default(),
+        LoadMarker::default(),
+    );
     assert!(
         matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(work)) if work.id == "steel-fish" && work.thumbnail.is_some())
     );
@@ -49,7 +56,13 @@ fn a_saved_timbre_is_loaded_again_and_a_broken_one_leaves_the_exhibit_on_show() 
     for file in ["model.glb", "exhibit.toml", "timbres/whirr.toml"] {
         std::fs::copy(folder.path().join(file), path.join(file)).expect("a copy");
     }
-    let shelf = CatalogLoader::new(&ExhibitSource::One(path.clone()), &path, true);
+    let shelf = CatalogLoader::new(
+        &ExhibitSource::One(path.clone()),
+        &path,
+        true,
+        &Quarantine::default(),
+        LoadMarker::default(),
+    );
     let first = shelf.wait(LONG);
     assert!(matches!(first, Some(CatalogEvent::Listed(_))), "it is listed first");
     folder.write("wheel/timbres/whirr.toml", WHIRR.replace("scale = 40", "scale = 80").as_bytes());
@@ -79,7 +92,13 @@ fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_
     let places = ExhibitSource::All { folder: site.path().to_path_buf(), show };
     let named: Vec<String> = folders(&places).iter().map(|folder| id(folder)).collect();
     assert_eq!(named, ["steel-fish", "pendulum"]);
-    let shelf = CatalogLoader::new(&places, &site.path().join("steel-fish"), true);
+    let shelf = CatalogLoader::new(
+        &places,
+        &site.path().join("steel-fish"),
+        true,
+        &Quarantine::default(),
+        LoadMarker::default(),
+    );
     let mut offer = Catalog::new(&places);
     let mut said = Vec::new();
     let mut until = |offer: &mut Catalog, wanted: &[&str]| {
@@ -103,6 +122,34 @@ fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_
     assert_eq!(offer.neighbour("steel-fish", -1).map(|work| work.id.as_str()), Some("pendulum"));
     std::fs::remove_dir_all(site.path().join("chains")).expect("removable");
     until(&mut offer, &["steel-fish", "pendulum"]);
+}
+
+#[test]
+fn an_exhibit_that_is_set_aside_is_loaded_only_when_its_files_change() {
+    const LONG: Duration = Duration::from_secs(20);
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("exhibits");
+    let site = tempfile::tempdir().expect("a folder");
+    for id in ["pendulum", "chains"] {
+        copy_folder(&shipped.join(id), &site.path().join(id));
+    }
+    let mut aside = Quarantine::default();
+    (0..3).for_each(|now| {
+        aside.record("chains", now);
+    });
+    let places = ExhibitSource::All { folder: site.path().to_path_buf(), show: vec!["*".into()] };
+    let marker = LoadMarker::new(Some(site.path()));
+    let shelf = CatalogLoader::new(&places, &site.path().join("pendulum"), true, &aside, marker.clone());
+    let listed = |longest| match shelf.wait(longest) {
+        Some(CatalogEvent::Listed(entry)) => Some(entry.id),
+        Some(_) => panic!("another event"),
+        None => None,
+    };
+    assert_eq!((listed(LONG).as_deref(), listed(Duration::from_secs(2))), (Some("pendulum"), None));
+    let sidecar = site.path().join("chains/exhibit.toml");
+    let text = std::fs::read_to_string(&sidecar).expect("readable");
+    std::fs::write(&sidecar, text + "\n# mended\n").expect("writable");
+    assert_eq!(listed(LONG).as_deref(), Some("chains"));
+    assert_eq!(marker.take(), None, "every loading has ended");
 }
 
 fn copy_folder(from: &Path, to: &Path) {

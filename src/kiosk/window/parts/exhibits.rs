@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::fleet::Fleet;
+use crate::fleet::quarantine::Quarantine;
 use crate::venue::catalog::{Catalog, CatalogLoader, ExhibitSource, folders, id};
 use soffio_config::Config;
 
@@ -23,9 +25,10 @@ pub(crate) struct ExhibitSelection {
 
 impl ExhibitSelection {
     /// The exhibits of `places`; `shown` is the folder on show.
-    pub fn new(places: &ExhibitSource, shown: &Path, hot_reload: bool) -> Self {
+    pub fn new(places: &ExhibitSource, shown: &Path, hot_reload: bool, fleet: &Fleet) -> Self {
+        let quarantine = &fleet.persisted().quarantine;
         Self {
-            loader: CatalogLoader::new(places, shown, hot_reload),
+            loader: CatalogLoader::new(places, shown, hot_reload, quarantine, fleet.load_marker()),
             offer: Catalog::new(places),
             thumbnails: Vec::new(),
             pending: None,
@@ -82,12 +85,12 @@ impl ExhibitSelection {
         (swipes - std::mem::replace(&mut self.swipes, swipes)) as i32
     }
 
-    /// Offers the exhibits in the configuration's order, and loads those that were not offered before.
-    pub fn reorder(&mut self, config: &Config) {
+    /// Offers the exhibits in the configuration's order, and loads those that were not offered before and are not set aside.
+    pub fn reorder(&mut self, config: &Config, quarantine: &Quarantine) {
         let site = &config.exhibits;
         self.offer.reorder(&site.show);
         let places = ExhibitSource::All { folder: site.folder.clone(), show: site.show.clone() };
-        for folder in folders(&places) {
+        for folder in folders(&places).into_iter().filter(|folder| !quarantine.contains(&id(folder))) {
             if !self.offer.entries().iter().any(|exhibit| exhibit.id == id(&folder)) {
                 self.loader.load(&folder);
             }

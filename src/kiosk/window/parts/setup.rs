@@ -1,6 +1,5 @@
 //! The configuration of this run, its file and its problems.
 
-use crate::fleet::SAFE_MODE;
 use crate::venue::site::{ConfigEvent, ConfigWatcher, Overrides, Site, waits_for_restart};
 use crate::visitor::input::Keys;
 use soffio_config::{Config, LoadedConfig};
@@ -44,15 +43,14 @@ impl Setup {
         self.file.as_ref().and_then(ConfigWatcher::next_event)
     }
 
-    /// Takes over a valid configuration, except the keys that wait for a restart. `safe` says whether the kiosk is in safe
-    /// mode. `Err` is returned where nothing has changed, and says whether the file had problems before.
+    /// Takes over a valid configuration, except the keys that wait for a restart. `standing` problems are none of the file. `Err` is returned where nothing has changed, and says whether the file had problems before.
     ///
     /// # Errors
     /// Nothing has changed; the value says whether the file had problems before.
-    pub fn take_over(&mut self, loaded: LoadedConfig, safe: bool) -> Result<Change, bool> {
+    pub fn take_over(&mut self, loaded: LoadedConfig, standing: Vec<String>) -> Result<Change, bool> {
         let was_broken = !self.problems.is_empty();
         self.problems.clear();
-        self.problems.extend(safe.then(|| SAFE_MODE.into()));
+        self.problems.extend(standing);
         self.problems.extend(loaded.warning_texts());
         let mut config = self.overrides.apply(loaded.config);
         let waits = waits_for_restart(&self.config, &config);
