@@ -398,11 +398,21 @@ broker() {
     "${command[@]}" -m wake
     within 10 picture && seen=1 || seen=0
     "${command[@]}" -m reload
-    within 10 test "$(grep -c 'steel-fish is on show' "$workdir/broker.err")" -ge 1 || true
+    within 10 reloaded || true
+    # A burst: the last one counts, and the kiosk goes on.
+    local i before burst
+    before=$(grep -c 'is on show' "$workdir/broker.err")
+    for i in {1..3000}; do echo "exhibit pendulum"; echo "exhibit steel-fish"; done | mosquitto_pub "${at[@]}" -t "$topic/cmd" -q 1 -l
+    sleep 3
+    "${command[@]}" -m 'mute off'
+    within 5 published '"muted":false' && seen=$((seen + 1)) || true
+    burst=$(($(grep -c 'is on show' "$workdir/broker.err") - before))
+    bar "broker: a burst" "$seen == 2 && $burst <= 12" "6000 commands load $burst exhibits, and the next command is obeyed within 5 s"
+    seen=$((seen - 1))
     "${command[@]}" -m shutdown
     within 5 grep -q '"shutdown" is no command' "$workdir/broker.err" || true
     sleep 2
-    bar "broker: commands" "$seen == 1 && $(grep -c 'steel-fish is on show' "$workdir/broker.err") == 2 && $(grep -c '"muted":true' "$workdir/messages.out") >= 1 && $(grep -c 'is no command' "$workdir/broker.err") == 1" \
+    bar "broker: commands" "$seen == 1 && $(grep -c 'steel-fish is on show' "$workdir/broker.err") >= 2 && $(grep -c '"muted":true' "$workdir/messages.out") >= 1 && $(grep -c 'is no command' "$workdir/broker.err") == 1" \
         "another exhibit, mute, blank, wake, reload; no other command"
     # Kiosk and launcher are killed: the broker publishes the last will.
     local pid
@@ -422,5 +432,42 @@ broker() {
     picture && seen=1 || seen=0
     bar "broker: gone" "$seen == 1 && $(grep -c '"blank" is ignored' "$workdir/broker_gone.err") == 1 && $(grep -c 'mqtt: no connection to' "$workdir/broker_gone.err") == 1" "reported once, the picture stays"
     end_launcher || true
+}
+reloaded() { [ "$(grep -c 'steel-fish is on show' "$workdir/broker.err")" -ge 2 ]; }
+
+# ---- an encrypted connection, on which broker and kiosk show certificates -------------------------------------------
+broker_encrypted() {
+    local port=18930 toml=$workdir/encrypted.toml files=$workdir/certificates name
+    local PATH=$PATH:/usr/sbin
+    if ! command -v mosquitto >/dev/null || ! command -v openssl >/dev/null; then
+        cannot "broker encrypted" "a broker or openssl is missing: apt-get install mosquitto openssl"
+        return
+    fi
+    while (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; do port=$((port + 1)); done
+    mkdir -m 755 "$files"
+    for name in ca other; do
+        openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -days 2 -subj "/CN=$name" \
+            -keyout "$files/$name.key" -out "$files/$name.pem" 2>/dev/null
+    done
+    for name in localhost kiosk; do
+        openssl req -newkey ec -pkeyopt ec_paramgen_curve:P-256 -nodes -subj "/CN=$name" -addext "subjectAltName=DNS:$name" \
+            -keyout "$files/$name.key" -out "$files/$name.csr" 2>/dev/null
+        openssl x509 -req -days 2 -in "$files/$name.csr" -CA "$files/ca.pem" -CAkey "$files/ca.key" -copy_extensions copy \
+            -out "$files/$name.pem" 2>/dev/null
+    done
+    chmod 644 "$files"/*
+    chmod 755 "$workdir"
+    printf 'listener %s 127.0.0.1\nallow_anonymous true\ncafile %s/ca.pem\ncertfile %s/localhost.pem\nkeyfile %s/localhost.key\nrequire_certificate true\n' \
+        "$port" "$files" "$files" "$files" >"$workdir/encrypted.conf"
+    start mosquitto_encrypted mosquitto -c "$workdir/encrypted.conf"
+    for name in ca other; do
+        configured "$toml" '[exhibits]\nfolder = "%s"\nshow = ["pendulum"]\n[mqtt]\nbroker = "localhost:%s"\nauthority = "%s/%s.pem"\ncertificate = "%s/kiosk.pem"\nkey = "%s/kiosk.key"\n' \
+            "$root/exhibits" "$port" "$files" "$name" "$files" "$files"
+        launch_kiosk "encrypted_$name" --config "$toml" --no-attract
+        within 10 grep -qE 'mqtt: (connected to|no connection)' "$workdir/encrypted_$name.err" || true
+        end_launcher || true
+    done
+    bar "broker encrypted" "$(grep -c 'mqtt: connected to' "$workdir/encrypted_ca.err") >= 1 && $(grep -c 'mqtt: connected to' "$workdir/encrypted_other.err") == 0 && $(grep -c 'mqtt: no connection' "$workdir/encrypted_other.err") == 1" \
+        "connected with certificates; refused where the broker's comes from another authority"
 }
 published() { grep -q "$1" "$workdir/messages.out"; }

@@ -4,6 +4,7 @@
 //! earlier one, as it would do on the screen. The window takes one in each turn of its loop. Commands that load an exhibit are due once in
 //! [`LOADS_EVERY`], since loading takes processor time from motion and sound.
 
+use std::fmt;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
@@ -59,6 +60,20 @@ impl Order {
     }
 }
 
+impl fmt::Display for Order {
+    /// The text of its message.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Reload => f.write_str("reload"),
+            Self::Blank => f.write_str("blank"),
+            Self::Wake => f.write_str("wake"),
+            Self::Mute(true) => f.write_str("mute on"),
+            Self::Mute(false) => f.write_str("mute off"),
+            Self::Exhibit(id) => write!(f, "exhibit {id}"),
+        }
+    }
+}
+
 impl FromStr for Order {
     type Err = String;
 
@@ -107,8 +122,8 @@ impl Orders {
             self.loaded = Some(now);
         }
         match replaced {
-            0 => tracing::info!("mqtt: command: {order:?}"),
-            _ => tracing::info!("mqtt: command: {order:?}, which replaces {replaced} others"),
+            0 => tracing::info!("mqtt: command: {order}"),
+            _ => tracing::info!("mqtt: command: {order}, which replaces {replaced} others"),
         }
         Some(order)
     }
@@ -144,6 +159,7 @@ mod tests {
             ("mute off", Order::Mute(false)),
             ("exhibit terry-clock", Order::Exhibit("terry-clock".into())),
         ] {
+            assert_eq!(order.to_string().parse(), Ok(order.clone()), "{order}");
             assert_eq!(text.parse(), Ok(order), "{text}");
         }
         for text in ["", "Reload", "exhibit", "exhibit a b", "mute maybe", "reload now", "shutdown"] {

@@ -111,8 +111,8 @@ impl PersistedState {
         let crashed = self.phase != RunPhase::Ended;
         self.quarantine.expire(now);
         let id = loading.unwrap_or_else(|| self.on_show.clone());
-        if crashed && !id.is_empty() && self.quarantine.record(&id, now) {
-            tracing::error!("{id} is set aside: the kiosk crashed again and again while it was loaded or shown");
+        if crashed && !id.is_empty() {
+            self.quarantine.record(&id, now);
         }
         self.start_crashes = if self.phase == RunPhase::Young { self.start_crashes.saturating_add(1) } else { 0 };
         self.phase = RunPhase::Young;
