@@ -74,12 +74,12 @@ fn bicubic(t: texture_2d<f32>, at: vec2f) -> vec2f {
     return k.g0.y * top + k.g1.y * low;
 }
 
-fn bicubic_layer(t: texture_2d_array<f32>, at: vec2f, layer: i32) -> f32 {
+fn bicubic_layer(t: texture_2d_array<f32>, at: vec2f, layer: i32) -> vec4f {
     let k = bicubic_taps(vec2f(textureDimensions(t)), at);
-    let top = k.g0.x * textureSampleLevel(t, smooth_sampler, k.near, layer, 0.0).x
-        + k.g1.x * textureSampleLevel(t, smooth_sampler, vec2f(k.far.x, k.near.y), layer, 0.0).x;
-    let low = k.g0.x * textureSampleLevel(t, smooth_sampler, vec2f(k.near.x, k.far.y), layer, 0.0).x
-        + k.g1.x * textureSampleLevel(t, smooth_sampler, k.far, layer, 0.0).x;
+    let top = k.g0.x * textureSampleLevel(t, smooth_sampler, k.near, layer, 0.0)
+        + k.g1.x * textureSampleLevel(t, smooth_sampler, vec2f(k.far.x, k.near.y), layer, 0.0);
+    let low = k.g0.x * textureSampleLevel(t, smooth_sampler, vec2f(k.near.x, k.far.y), layer, 0.0)
+        + k.g1.x * textureSampleLevel(t, smooth_sampler, k.far, layer, 0.0);
     return k.g0.y * top + k.g1.y * low;
 }
 
@@ -89,14 +89,15 @@ fn plane_place(p: vec3f, face: u32) -> vec2f {
     return vec2f(dot(p - q.origin, q.u) / q.width, dot(p - q.origin, q.v) / q.height);
 }
 
-// Visible fraction of the gallery's own light under static parts.
-fn open_sky(p: vec3f, face: u32) -> f32 {
+// Irradiance that static parts send, and the visible fraction of the gallery's own light beside them.
+fn beside_parts(p: vec3f, face: u32) -> vec4f {
+    let alone = vec4f(0.0, 0.0, 0.0, 1.0);
     if face > FLOOR {
-        return 1.0;
+        return alone;
     }
     let at = plane_place(p, face);
-    let open = bicubic_layer(ambient, at, i32(face));
-    return select(1.0, open, all(at >= vec2f(0.0)) && all(at <= vec2f(1.0)));
+    let beside = bicubic_layer(ambient, at, i32(face));
+    return select(alone, beside, all(at >= vec2f(0.0)) && all(at <= vec2f(1.0)));
 }
 
 // Shade of the floor's boards, 1 on average: each slightly lighter or darker, with a groove between, antialiased by
@@ -183,8 +184,9 @@ fn fragment(v: Varying) -> @location(0) vec4f {
         albedo = select(albedo, panel.albedo, on);
     }
     let hidden = blocked(v.position, v.face);
-    let open = open_sky(v.position, v.face);
-    var irradiance = map.rgb * open;
+    let beside = beside_parts(v.position, v.face);
+    let open = beside.w;
+    var irradiance = map.rgb * open + beside.rgb;
     for (var i = 0u; i < globals.lamp_count; i++) {
         let towards = normalize(globals.lamps[i].position - v.position);
         irradiance += lamp_beam(i, v.position) * max(dot(normal, towards), 0.0) * (1.0 - hidden[i]);

@@ -11,7 +11,7 @@
 @group(1) @binding(4) var wall_shadow: texture_2d<f32>;
 @group(1) @binding(5) var floor_shadow: texture_2d<f32>;
 @group(1) @binding(6) var lightmap: texture_2d_array<f32>;
-@group(1) @binding(7) var ambient: texture_2d_array<f32>;   // ambient visibility over each plane
+@group(1) @binding(7) var ambient: texture_2d_array<f32>;   // irradiance of static parts on each plane, and visibility
 
 override AREA_LIGHT: bool = false;
 // The environment is that of the gallery's box: reflections are corrected to where the mirror ray hits its walls.

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 use super::bounce::{self, BakedLight};
 use super::casters::casters;
@@ -21,8 +21,8 @@ pub struct Baked {
     pub(super) scene: Scene,
     pub(super) gallery: Gallery,
     pub(super) environment: Arc<Environment>,
-    /// Visibility maps of wall and floor, one byte a texel.
-    pub(super) ambient: Vec<u8>,
+    /// What static parts do to the light of wall and floor: the irradiance that they send, and the visible fraction of the rest.
+    pub(super) ambient: Vec<Vec4>,
     /// Vertices of the shadow casters, where the shadow map is fitted to them.
     pub(super) casters: Vec<Vec3>,
 }
@@ -43,11 +43,11 @@ impl Baked {
             environment: &environment,
             env_intensity: lighting.env_intensity,
             area: lighting.area_light,
-            lamps: if lighting.background.is_some() { &[] } else { &gallery.lamps },
+            gallery: lighting.background.is_none().then_some(&gallery),
         };
-        bounce::corners(&mut scene, exhibit, gallery.radius, &light);
+        let radiosity = bounce::corners(&mut scene, exhibit, gallery.radius, &light);
         let planes = ReceivingPlane::of_gallery(&gallery, exhibit, ShadowQuality::Full);
-        let ambient = occlusion::planes(&scene, exhibit, &planes, gallery.radius);
+        let ambient = occlusion::planes(&scene, exhibit, &planes, gallery.radius, &radiosity);
         let is_static = exhibit.bodies.is_empty() && exhibit.shapes.is_empty() && lighting.background.is_some();
         let casters = if is_static && lighting.area_light.is_some() {
             let (positions, _) = occlusion::start_geometry(&scene, exhibit);

@@ -5,9 +5,13 @@
 //!
 //! ```text
 //! v = Σ_open L / Σ_all L          what part of the light from all around arrives, L the radiance of the environment
+//! R = (π/N) Σ_open G − v E_env(n) what the walls nearby send beyond that, G the radiance of the gallery where the ray ends
 //! B = (1/N) Σ_hits ρ E            what comes back from surfaces
-//! E = D + v E_env(n) + B          solved by Jacobi iteration, once for each reflection (Goral et al. 1984)
+//! E = D + v E_env(n) + R + B      solved by Jacobi iteration, once for each reflection (Goral et al. 1984)
 //! ```
+//!
+//! The environment is the gallery as the centre of the exhibit meets it. A part near the floor meets the floor elsewhere; R is that
+//! difference. Where it is negative, v is smaller instead.
 //!
 //! The rays are the same at every vertex, in its tangent frame, so there is no noise. Triangles are refined first,
 //! since baked light is interpolated linearly between vertices.
@@ -22,7 +26,7 @@ use glam::{Quat, Vec3};
 
 use super::AreaLight;
 use super::environment::Environment;
-use super::gallery::Lamp;
+use super::gallery::{Gallery, Lamp};
 use super::occlusion::{RayCaster, cosine_directions, groups, in_parallel, start_geometry};
 use super::radiosity::polygon_factor;
 use super::scene::Scene;
@@ -32,10 +36,10 @@ use soffio_exhibit::model::{Appearance, Model};
 
 /// Longest edge after refinement, in radii of the scene: chosen by eye, so that no shadow edge shows the triangles.
 const MAX_EDGE: f32 = 1.0 / 28.0;
-/// Number of vertices beyond which no edge is halved: bounds the time of a load.
-const MAX_VERTICES: usize = 12_000;
-/// Fewest rays of each vertex; with fewer the noise would show, and nothing is baked. Chosen by eye.
-const MIN_RAYS: usize = 12;
+/// Number of added vertices beyond which no edge is halved: bounds the time of a load.
+const MAX_ADDED: usize = 8_000;
+/// Most groups of vertices that share their rays: 50 rays for each. Meshes of more vertices have groups of neighbours.
+const MAX_GROUPS: usize = 12_000;
 /// Most rays of each vertex: more make no visible difference.
 const MAX_RAYS: usize = 320;
 /// Most rays of all vertices together: bounds the time of a load.
@@ -64,17 +68,33 @@ pub(super) struct BakedLight<'a> {
     pub env_intensity: f32,
     /// Area light, if the scene has one.
     pub area: Option<AreaLight>,
-    /// Lamps of the gallery, the fill lamp last; none in a scenario.
-    pub lamps: &'a [Lamp],
+    /// The gallery; none in a scenario, whose environment is infinitely far.
+    pub gallery: Option<&'a Gallery>,
 }
 
-/// Bakes the visibility, the reflected light and the fill lamp's visible fraction of each vertex.
-pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: &BakedLight) {
-    scene.refine(MAX_EDGE * radius, MAX_VERTICES);
+/// What reaches a vertex from outside the exhibit.
+struct Gathered {
+    /// Fraction v of the light from all around that arrives.
+    visibility: f32,
+    /// Direct light of the lamps, and light from all around: D + v E_env + R.
+    outer: Vec3,
+    /// What the walls nearby send beyond the environment's light: R.
+    walls: Vec3,
+    /// Triangles that the rays meet.
+    met: Vec<u32>,
+    /// Visible fraction of the fill lamp.
+    fill: f32,
+}
+
+/// Bakes the visibility, the reflected light and the fill lamp's visible fraction of each vertex. Returns the radiosity of a triangle at
+/// each vertex, π times its radiance; 0 where none is opaque.
+pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: &BakedLight) -> Vec<Vec3> {
+    scene.refine(MAX_EDGE * radius, MAX_ADDED);
     let (positions, normals) = start_geometry(scene, exhibit);
-    let order = groups(&positions, &normals, radius);
+    let order = groups(&positions, &normals, radius, MAX_GROUPS);
     let rays = (RAY_BUDGET / order.len().max(1)).min(MAX_RAYS);
-    let Some(caster) = (rays >= MIN_RAYS).then(|| RayCaster::of_opaque(scene, &positions)).flatten() else { return };
+    let mut radiosity = vec![Vec3::ZERO; positions.len()];
+    let Some(caster) = RayCaster::of_opaque(scene, &positions) else { return radiosity };
     let mut group_of = vec![0; positions.len()];
     for (index, group) in order.iter().enumerate() {
         group.iter().for_each(|&i| group_of[i as usize] = index);
@@ -88,7 +108,7 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
         let mean = group.iter().map(|&i| inward[i as usize]).sum::<Vec3>() / group.len() as f32;
         let (place, normal) = (positions[i] + clear * normals[i] + ORIGIN_INSET * mean, normals[i]);
         let (t, b) = normal.any_orthonormal_pair();
-        let (mut open, mut all) = (0.0, 0.0);
+        let (mut open, mut all, mut arriving) = (0.0, 0.0, Vec3::ZERO);
         let mut met = Vec::new();
         for d in &directions {
             let direction = t * d.x + b * d.y + normal * d.z;
@@ -96,42 +116,59 @@ pub(super) fn corners(scene: &mut Scene, exhibit: &Exhibit, radius: f32, light: 
             all += brightness;
             match caster.nearest_hit(place, direction) {
                 Some(triangle) => met.push(triangle),
-                None => open += brightness,
+                None => {
+                    open += brightness;
+                    arriving += light.gallery.map_or(Vec3::ZERO, |gallery| gallery.radiance_at(place, direction));
+                }
             }
         }
         let visibility = if all > 0.0 { open / all } else { 1.0 };
-        let around = light.env_intensity * visibility * light.environment.irradiance_at(normal);
+        let around = light.env_intensity * light.environment.irradiance_at(normal);
+        let (visibility, walls) = match light.gallery {
+            Some(_) => split(visibility, around, light.env_intensity * PI * arriving / rays as f32),
+            None => (visibility, Vec3::ZERO),
+        };
         let mut direct = light.area.as_ref().map_or(Vec3::ZERO, |area| from_area(&caster, place, normal, area));
         let mut fill = 1.0;
-        for lamp in light.lamps {
+        for lamp in light.gallery.map_or(&[][..], |gallery| &gallery.lamps) {
             let beam = lamp.irradiance(place, normal);
             // Behind the surface no ray decides: a body that turns has its other side there.
             fill = if beam == Vec3::ZERO { 1.0 } else { lamp_visibility(&caster, place, lamp) };
             direct += beam * fill;
         }
-        (visibility, direct + around, met, fill)
+        Gathered { visibility, outer: direct + visibility * around + walls, walls, met, fill }
     });
     let reflectance = reflectances(scene, &exhibit.model);
     let mut sent = vec![Vec3::ZERO; order.len()];
+    let opaque = &scene.indices[..scene.opaque_end as usize];
     for _ in 0..REFLECTIONS {
         // Radiosity of each triangle, π times its radiance: the mean over its vertices.
-        let of_triangle: Vec<Vec3> = scene.indices[..scene.opaque_end as usize]
+        let of_triangle: Vec<Vec3> = opaque
             .chunks_exact(3)
             .zip(&reflectance)
             .map(|(t, (rho, glow))| {
-                let falls = |i: u32| gathered[group_of[i as usize]].1 + sent[group_of[i as usize]];
+                let falls = |i: u32| gathered[group_of[i as usize]].outer + sent[group_of[i as usize]];
                 *rho * (falls(t[0]) + falls(t[1]) + falls(t[2])) / 3.0 + PI * *glow
             })
             .collect();
-        sent = in_parallel(&gathered, |(_, _, met, _)| {
-            met.iter().map(|&triangle| of_triangle[triangle as usize]).sum::<Vec3>() / rays as f32
+        sent = in_parallel(&gathered, |at| {
+            at.met.iter().map(|&triangle| of_triangle[triangle as usize]).sum::<Vec3>() / rays as f32
         });
+        opaque.chunks_exact(3).zip(&of_triangle).for_each(|(t, b)| radiosity[t[0] as usize] = *b);
     }
     for (i, vertex) in scene.vertices.iter_mut().enumerate() {
-        vertex.set_visibility(gathered[group_of[i]].0);
-        vertex.bounce = sent[group_of[i]];
-        vertex.fill = gathered[group_of[i]].3;
+        let at = &gathered[group_of[i]];
+        vertex.set_visibility(at.visibility);
+        vertex.bounce = sent[group_of[i]] + at.walls;
+        vertex.fill = at.fill;
     }
+    radiosity
+}
+
+/// Splits what arrives from the walls into a fraction of the environment's irradiance, at most `visibility`, and the rest.
+fn split(visibility: f32, environment: Vec3, arriving: Vec3) -> (f32, Vec3) {
+    let fraction = (arriving / environment.max(Vec3::splat(f32::MIN_POSITIVE))).min_element().clamp(0.0, visibility);
+    (fraction, arriving - fraction * environment)
 }
 
 /// From each vertex to the centre of its triangles.
@@ -246,7 +283,7 @@ pub(super) mod tests {
             &mut scene,
             &exhibit,
             1.0,
-            &BakedLight { environment: &environment, env_intensity: 1.0, area: None, lamps: &[] },
+            &BakedLight { environment: &environment, env_intensity: 1.0, area: None, gallery: None },
         );
         let exact = PI * 0.5 / 0.7;
         let inner =

@@ -1,11 +1,13 @@
 //! Bind group of the light on one exhibit: textures and samplers.
 
+use glam::Vec4;
+
 use super::Gpu;
 use super::environment::{CUBE_MIPS, CUBE_SIZE, Environment};
 use super::gallery::Gallery;
 use super::occlusion::PLANE_MAP;
 use super::radiosity::LIGHTMAP_SIZE;
-use super::resources::{SquareSize, filled, half4, light_texture};
+use super::resources::{SquareSize, half4, light_texture};
 use super::shared::SharedResources;
 
 /// Sources of the light on one exhibit.
@@ -16,8 +18,8 @@ pub(super) struct LightResources<'a> {
     pub gallery: &'a Gallery,
     /// Shadows on wall and floor.
     pub planes: &'a [wgpu::TextureView; 2],
-    /// Ambient visibility that static parts leave on both, one byte a texel.
-    pub ambient: &'a [u8],
+    /// Irradiance that static parts send to both, and the visible fraction of the rest.
+    pub ambient: &'a [Vec4],
     /// Silhouettes of plates.
     pub contours: &'a wgpu::TextureView,
 }
@@ -40,14 +42,9 @@ pub(super) fn light_group(gpu: &Gpu, shared: &SharedResources, light: LightResou
         light_texture(gpu, "environment", SquareSize { side: CUBE_SIZE, layers: 6, levels: CUBE_MIPS }, &cube, Cube);
     let lightmap =
         light_texture(gpu, "light map", SquareSize { side: LIGHTMAP_SIZE, layers: 7, levels: 1 }, &lightmap, D2Array);
-    let ambient = filled(
-        gpu,
-        "ambient",
-        SquareSize { side: PLANE_MAP, layers: 2, levels: 1 },
-        wgpu::TextureFormat::R8Unorm,
-        light.ambient,
-    );
-    let ambient = ambient.create_view(&wgpu::TextureViewDescriptor { dimension: Some(D2Array), ..Default::default() });
+    let ambient: Vec<_> = light.ambient.iter().map(|texel| half4(texel.to_array())).collect();
+    let ambient =
+        light_texture(gpu, "ambient", SquareSize { side: PLANE_MAP, layers: 2, levels: 1 }, &ambient, D2Array);
     use wgpu::BindingResource::{Sampler, TextureView};
     let resources = [
         TextureView(&environment),

@@ -3,11 +3,12 @@
 //!
 //! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points in each surface's
 //! tangent frame), so its noise does not flicker. It is v = 1 − (1/N) Σ max(0, 1 − d/r), with d the distance to the hit
-//! and r the occlusion radius.
+//! and r the occlusion radius. What stands there also sends light to wall and floor: b = (1/N) Σ max(0, 1 − d/r) B, B the radiosity where
+//! the ray ends.
 
 use std::time::Duration;
 
-use glam::{Vec2, Vec3, Vec3A};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 use obvhs::BvhBuildParams;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2_from_tris;
@@ -20,6 +21,9 @@ use soffio_exhibit::Exhibit;
 
 /// Rays of each texel of a plane: more than of a vertex, since a plane is smooth and noise shows.
 const TEXEL_RAYS: u32 = 32;
+/// Steps of the normals of vertices that share their rays, at first and at most: by 3° nothing changes; by more than 30° other parts are met.
+const FINEST_TURN: f32 = 0.05;
+const COARSEST_TURN: f32 = 0.5;
 /// Texels along each side of a plane's map. Occlusion of a plane has no sharper edges; chosen by eye.
 pub(super) const PLANE_MAP: u32 = 80;
 /// Ray queries on the scene's opaque triangles, by a bounding volume hierarchy.
@@ -94,41 +98,61 @@ impl RayCaster {
         });
     }
 
-    /// Visible fraction of the hemisphere over `point`, 0…1.
-    fn visibility(&self, point: Vec3, normal: Vec3, reach: f32, directions: &[Vec3]) -> f32 {
+    /// Irradiance b from what covers the hemisphere over `point`, and the visible fraction v, 0…1. `radiosity` is that of each vertex of
+    /// the scene.
+    fn hemisphere(&self, point: Vec3, normal: Vec3, reach: f32, directions: &[Vec3], radiosity: &[Vec3]) -> Vec4 {
         let (t, b) = normal.any_orthonormal_pair();
         let origin = Vec3A::from(point + normal * (1e-3 * reach));
-        let mut hidden = 0.0;
+        let mut hidden = Vec4::ZERO;
         for d in directions {
             let direction = Vec3A::from(t * d.x + b * d.y + normal * d.z);
-            let mut nearest = reach;
+            let (mut nearest, mut corner) = (reach, 0);
             self.bvh.ray_traverse(Ray::new(origin, direction, 0.0, reach), &mut RayHit::none(), |ray, id| {
-                let t = self.triangles[self.bvh.primitive_indices[id] as usize].intersect(ray);
-                nearest = nearest.min(t);
+                let index = self.bvh.primitive_indices[id] as usize;
+                let t = self.triangles[index].intersect(ray);
+                if t < nearest {
+                    (nearest, corner) = (t, self.corners[index]);
+                }
                 t
             });
-            hidden += 1.0 - nearest / reach;
+            hidden += (1.0 - nearest / reach) * radiosity[corner as usize].extend(-1.0);
         }
-        1.0 - hidden / directions.len() as f32
+        Vec4::W + hidden / directions.len() as f32
     }
 }
 
-/// Groups of vertices with the same position and normal, which share their rays.
-pub(super) fn groups(positions: &[Vec3], normals: &[Vec3], radius: f32) -> Vec<Vec<u32>> {
-    let key = |i: u32| {
-        let whole = |v: Vec3, step: f32| [v.x, v.y, v.z].map(|c| (c / step).round() as i32);
-        (whole(positions[i as usize], 1e-4 * radius), whole(normals[i as usize], 0.05))
-    };
-    let mut order: Vec<u32> = (0..positions.len() as u32).collect();
-    order.sort_by_cached_key(|&i| key(i));
-    order.chunk_by(|&a, &b| key(a) == key(b)).map(<[u32]>::to_vec).collect()
+/// Groups of vertices with nearly the same position and normal, which share their rays; at most `most` of them. At first these are the
+/// same to a ten-thousandth of the radius, as where the triangles of one vertex have colours of their own. While there are too many groups, both
+/// steps grow: the light of a tooth is that of its wheel's neighbouring teeth.
+pub(super) fn groups(positions: &[Vec3], normals: &[Vec3], radius: f32, most: usize) -> Vec<Vec<u32>> {
+    let (mut place, mut turn) = (1e-4 * radius, FINEST_TURN);
+    loop {
+        let key = |i: u32| {
+            let whole = |v: Vec3, step: f32| [v.x, v.y, v.z].map(|c| (c / step).round() as i32);
+            (whole(positions[i as usize], place), whole(normals[i as usize], turn))
+        };
+        let mut order: Vec<u32> = (0..positions.len() as u32).collect();
+        order.sort_by_cached_key(|&i| key(i));
+        let groups: Vec<Vec<u32>> = order.chunk_by(|&a, &b| key(a) == key(b)).map(<[u32]>::to_vec).collect();
+        if groups.len() <= most || place > radius {
+            return groups;
+        }
+        (place, turn) = (2.0 * place, (1.5 * turn).min(COARSEST_TURN));
+    }
 }
 
-/// Visibility maps of both planes under static parts: row by row, one byte a texel.
-pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane; 2], radius: f32) -> Vec<u8> {
+/// What static parts do to the light of both planes: row by row, the irradiance that they send, and the visible fraction of the rest.
+/// `radiosity` is that of each vertex.
+pub(super) fn planes(
+    scene: &Scene,
+    exhibit: &Exhibit,
+    planes: &[ReceivingPlane; 2],
+    radius: f32,
+    radiosity: &[Vec3],
+) -> Vec<Vec4> {
     let count = (PLANE_MAP * PLANE_MAP) as usize;
     let (positions, _) = start_geometry(scene, exhibit);
-    let Some(caster) = RayCaster::of_static(scene, &positions) else { return vec![255; 2 * count] };
+    let Some(caster) = RayCaster::of_static(scene, &positions) else { return vec![Vec4::W; 2 * count] };
     let directions = cosine_directions(TEXEL_RAYS);
     let texels: Vec<(usize, Vec2)> = (0..2 * count)
         .map(|i| {
@@ -140,8 +164,7 @@ pub(super) fn planes(scene: &Scene, exhibit: &Exhibit, planes: &[ReceivingPlane;
         let plane = &planes[plane];
         let point = plane.origin + plane.u * (at.x * plane.size.x) + plane.v * (at.y * plane.size.y);
         // Under a foot that stands on the floor the visibility is 0; the origin is moved out of its underside.
-        let visibility = caster.visibility(point, plane.normal, radius, &directions);
-        (visibility * 255.0 + 0.5) as u8
+        caster.hemisphere(point, plane.normal, radius, &directions, radiosity)
     })
 }
 
@@ -196,8 +219,12 @@ mod tests {
         let bvh = build_bvh2_from_tris(&triangles, BvhBuildParams::fast_build(), &mut Duration::default());
         let caster = RayCaster { triangles, corners: vec![0, 0], bvh };
         let directions = cosine_directions(256);
-        let at = |x: f32| caster.visibility(Vec3::new(x, 0.0, 0.0), Vec3::Z, 1.0, &directions);
-        assert!((at(1e-4) - 0.5).abs() < SAMPLING, "{}", at(1e-4));
-        assert!(at(0.5) > at(0.2) && at(2.0) == 1.0, "{} {} {}", at(0.2), at(0.5), at(2.0));
+        let red = [Vec3::new(3.0, 0.0, 0.0)];
+        let at = |x: f32| caster.hemisphere(Vec3::new(x, 0.0, 0.0), Vec3::Z, 1.0, &directions, &red);
+        let foot = at(1e-4);
+        assert!((foot.w - 0.5).abs() < SAMPLING, "{foot}");
+        assert!(at(0.5).w > at(0.2).w && at(2.0) == Vec4::W, "{} {} {}", at(0.2), at(0.5), at(2.0));
+        // What is hidden is replaced by the wall's own light.
+        assert!((foot.x - 3.0 * (1.0 - foot.w)).abs() < 1e-5 && foot.y == 0.0, "{foot}");
     }
 }

@@ -191,9 +191,14 @@ impl Gallery {
 
     /// Radiance that reaches the centre of the exhibit from a world direction (unit).
     pub fn radiance(&self, direction: Vec3) -> Vec3 {
+        self.radiance_at(self.exhibit_center, direction)
+    }
+
+    /// Radiance that reaches a world point from a world direction (unit). A point outside the gallery is moved to its nearest face.
+    pub fn radiance_at(&self, point: Vec3, direction: Vec3) -> Vec3 {
         let d = Vec3::new(direction.dot(self.x), direction.y, direction.dot(self.z));
-        let w = self.exhibit_center - self.center;
-        let origin = Vec3::new(w.dot(self.x), w.y, w.dot(self.z));
+        let w = point - self.center;
+        let origin = Vec3::new(w.dot(self.x), w.y, w.dot(self.z)).clamp(-self.half, self.half);
         // The face through which the ray leaves the box: the nearest of the three planes ahead.
         let to = (self.half * Vec3::new(sign(d.x), sign(d.y), sign(d.z)) - origin)
             / d.map(|c| if c.abs() < 1e-9 { 1e-9 } else { c });

@@ -1,4 +1,5 @@
-//! Mesh refinement for baked light: halves edges until none is longer than a limit.
+//! Mesh refinement for baked light: halves edges until none is longer than a limit, the longest ones first. So a tray of twelve triangles
+//! is refined even where balls of thousands of triangles lie in it.
 //!
 //! Whether an edge is halved depends only on its own two ends. So triangles on both sides of it, of one mesh or of two,
 //! agree, and no gap opens.
@@ -11,16 +12,21 @@ use super::scene::Scene;
 use super::skins::Skinned;
 use super::vertex::Vertex;
 
-/// Most passes: an edge is then a 64th of its length.
-const MAX_PASSES: u32 = 6;
+/// First limit relative to the last: a longer edge is halved several times at the first limit.
+const FIRST_LIMIT: f32 = 32.0;
 
 impl Scene {
-    /// Halves edges longer than `longest`, m, repeatedly, as long as there are at most `most` vertices.
-    pub fn refine(&mut self, longest: f32, most: usize) {
-        for _ in 0..MAX_PASSES {
-            if self.vertices.len() > most || !self.halve(longest) {
-                return;
+    /// Halves edges longer than `longest`, m, repeatedly, until about `added` vertices are added.
+    pub fn refine(&mut self, longest: f32, added: usize) {
+        let most = self.vertices.len() + added;
+        let mut limit = FIRST_LIMIT * longest;
+        while limit >= longest {
+            while self.halve(limit) {
+                if self.vertices.len() > most {
+                    return;
+                }
             }
+            limit *= 0.5;
         }
     }
 
