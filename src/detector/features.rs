@@ -160,9 +160,9 @@ impl Features {
     pub fn push(&mut self, framer: &Framer, echo_spectrum: &Power, stereo: bool) -> Frame {
         let [power, echo_power]: [[f64; BANDS]; 2] = [&framer.microphone, echo_spectrum].map(|p| powers(p, &EDGES));
         let levels: [f64; BANDS] = std::array::from_fn(|b| {
-            // A prediction is no sound: no more echo is heard than there is power.
-            let heard = echo_power[b].min(power[b]);
-            power_to_db((power[b] - heard).max(RESIDUE * heard) + MIN_POWER)
+            // A prediction is no sound: there is no more echo than power.
+            let echo = echo_power[b].min(power[b]);
+            power_to_db((power[b] - echo).max(RESIDUE * echo) + MIN_POWER)
         });
         self.floor.learn(&levels);
         self.levels = levels;

@@ -3,7 +3,7 @@
 //!
 //! The estimate is a mean over the same cosine-weighted directions everywhere (Hammersley points in each surface's
 //! tangent frame), so its noise does not flicker. It is v = 1 − (1/N) Σ max(0, 1 − d/r), with d the distance to the hit
-//! and r the occlusion radius. What stands there also sends light to wall and floor: b = (1/N) Σ max(0, 1 − d/r) B, B the radiosity where
+//! and r the occlusion radius. These parts also send light to wall and floor: b = (1/N) Σ max(0, 1 − d/r) B, B the radiosity where
 //! the ray ends.
 
 use std::time::Duration;

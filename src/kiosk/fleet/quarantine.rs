@@ -4,7 +4,7 @@
 //! state knows the exhibit on show, and a small file beside it names the one that is being loaded. So a crash counts for that exhibit.
 //! After [`LIMITS`] it is set aside for a day, or until its files change, and the other exhibits go on.
 //!
-//! A power cut looks like a crash. The limits lie above what a house does that switches its kiosks off at the mains.
+//! A power cut looks like a crash. The limits allow a museum to switch its kiosks off at the mains.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

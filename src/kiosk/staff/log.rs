@@ -1,4 +1,4 @@
-//! The log: its last lines, in memory, for the staff panel, and a writer to stderr that never waits for whoever reads it.
+//! The log: its last lines, in memory, for the staff panel, and a writer to stderr that never waits for a reader.
 //!
 //! A pipe that nobody reads is full after 64 KiB, and the next write to it waits for ever. So a thread of its own writes to stderr. Where
 //! it falls behind by [`WAITING`] lines, further lines are dropped and counted.
