@@ -63,7 +63,7 @@ long() {
     stamp=$(git rev-parse HEAD 2>/dev/null || echo none)
     mkdir -p out/long
     cargo build --release --locked --quiet
-    for part in soak-blow soak-still soak-live stream-live loaded-live devices deb hands places million-hits clock-hour half-day beats schemas turning-gears visits plates blown cabinet wind steps contrast flashes minutes rehearse \
+    for part in soak-blow soak-still soak-live stream-live loaded-live faults-live devices deb hands places million-hits clock-hour half-day beats schemas turning-gears visits plates blown cabinet wind steps contrast flashes minutes rehearse \
         answered first groups shuffled false_triggers staff attract fuzz; do
         if [ "$(cat "out/long/$part" 2>/dev/null)" = "$stamp" ]; then
             echo "== $part: done before"
@@ -91,6 +91,7 @@ long() {
             steps)      "$released" bench --seeds 100 --within 4.17 ;;
             soak-live)  SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_SECONDS=7200 tests/live/run.sh "$released" ;;
             stream-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_STREAM=600 tests/live/run.sh "$released" ;;
+            faults-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_FAULTS=100 tests/live/run.sh "$released" ;;
             loaded-live) SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_LOAD=600 tests/live/run.sh "$released" ;;
             devices)    SOFFIO_LIVE_PARTS='' SOFFIO_LIVE_SUITE=$(suite_binary) tests/live/run.sh "$released" ;;
             deb)        deb ;;

@@ -26,6 +26,7 @@ done
 [ "${CI:-}" != true ] || export SOFFIO_REQUIRE_ALL=1
 . "$here/environment.sh"
 . "$here/robust.sh"
+. "$here/faults.sh"
 . "$here/soak.sh"
 . "$here/screens.sh"
 . "$here/parts.sh"
@@ -594,6 +595,9 @@ for part in $parts; do
 done
 if [ -n "${SOFFIO_LIVE_SUITE:-}" ]; then
     timed devices "$SOFFIO_LIVE_SUITE"
+fi
+if [ -n "${SOFFIO_LIVE_FAULTS:-}" ]; then
+    timed faults "$SOFFIO_LIVE_FAULTS"
 fi
 if [ -n "${SOFFIO_LIVE_STREAM:-}" ]; then
     timed streaming "$SOFFIO_LIVE_STREAM"

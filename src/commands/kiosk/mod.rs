@@ -67,7 +67,8 @@ pub struct Args {
     /// Writes all inputs of the simulation, for `soffio replay`; never a sound
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
-    /// Safe mode: one built-in exhibit, no controllers, no remote commands; automatic where the start crashes again and again
+    /// Safe mode: one built-in exhibit, no controllers, no remote commands. Where the start crashes again and again it is automatic, with
+    /// an exhibit that has not crashed
     #[arg(long)]
     safe: bool,
     /// Without a display or graphics: plays the exhibit to its recorded breath and leaves a picture, a sound and a trace in out/
@@ -109,7 +110,7 @@ pub fn run(args: Args) -> Outcome {
     let overrides = Overrides { safe: begun.safe, ..overrides };
     let config = overrides.apply(config);
 
-    let built_in = if begun.safe { supervised::built_in() } else { None };
+    let built_in = if begun.shows_built_in { supervised::built_in() } else { None };
     let (exhibit, places) = match &built_in {
         Some(built_in) => (built_in.exhibit.clone(), ExhibitSource::One(built_in.exhibit.folder.clone())),
         None => (choose(&config, &begun)?, places),

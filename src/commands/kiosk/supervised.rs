@@ -37,8 +37,10 @@ pub struct Begun {
     pub store: StateStore,
     /// Persisted state of the runs before.
     pub persisted: PersistedState,
-    /// Is this one in safe mode?
+    /// Is this one in safe mode: nothing from outside?
     pub safe: bool,
+    /// Is a built-in exhibit shown, since none is left or safe mode was asked for?
+    pub shows_built_in: bool,
     /// Folders of the exhibits that are not set aside; all of them if none is left.
     folders: Vec<PathBuf>,
 }
@@ -62,7 +64,8 @@ pub fn begin(config: &Config, mut folders: Vec<PathBuf>, asked_safe: bool) -> Be
         left.drain(..left.len().min((persisted.start_crashes / EXHIBIT_AFTER) as usize));
     }
     let safe = asked_safe || persisted.wants_safe_mode(!left.is_empty());
-    Begun { store, safe, persisted, folders: if left.is_empty() { folders } else { left } }
+    let shows_built_in = asked_safe || safe && left.is_empty();
+    Begun { store, safe, shows_built_in, persisted, folders: if left.is_empty() { folders } else { left } }
 }
 
 impl Begun {

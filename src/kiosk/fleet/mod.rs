@@ -40,8 +40,9 @@ const SELF_TEST_WAITS_MIN: u16 = 60;
 const SPREAD_EVERY: Duration = Duration::from_secs(600);
 
 /// Message about safe mode for staff.
-pub const SAFE_MODE: &str = "safe mode: the kiosk crashed again and again within a minute of its start, so it shows one built-in \
-                             exhibit and ignores controllers. The log before says why it crashed; a restart tries again";
+pub const SAFE_MODE: &str = "safe mode: the kiosk crashed again and again within a minute of its start, so it ignores controllers \
+                             and remote commands, and shows an exhibit that has not crashed, or else a built-in one. The log \
+                             before says why it crashed; a restart tries again";
 
 /// State of the window, for counters, metrics and reports.
 pub struct WindowStatus<'a> {

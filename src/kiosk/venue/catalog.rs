@@ -1,6 +1,6 @@
 //! The catalog: the exhibits that a visitor can choose from. It follows changes that curators make while the kiosk runs.
 //!
-//! One worker thread loads. At the start it loads every exhibit once, in order: valid ones are listed with their labels and
+//! One worker thread loads. After the first frame it loads every exhibit once, in order: valid ones are listed with their labels and
 //! picture, others are reported and left out. Folders are watched. 300 ms after the last change (editors write in several
 //! steps) the worker loads the folder again. So a new folder appears, a removed one disappears, and saved changes are shown.
 //! The exhibit on show is replaced only by one that has loaded; else the last valid one stays.
@@ -68,6 +68,8 @@ pub enum CatalogEvent {
 }
 
 enum CatalogRequest {
+    /// List these exhibits.
+    List(Vec<PathBuf>),
     Show(PathBuf),
     Load(PathBuf),
 }
@@ -76,12 +78,14 @@ enum CatalogRequest {
 pub struct CatalogLoader {
     events: Receiver<CatalogEvent>,
     requests: Sender<CatalogRequest>,
+    /// Folders that are not listed yet.
+    unlisted: Vec<PathBuf>,
     /// Ends the watching when dropped.
     _watcher: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
 }
 
 impl CatalogLoader {
-    /// Loads the exhibits there, and reloads changed ones if `watched`; `shown` is the folder on show. Where watching is
+    /// Offers the exhibits there when [`Self::list`] is called, and reloads changed ones if `watched`; `shown` is the folder on show. Where watching is
     /// impossible the reason is logged, and requests still work. Exhibits of `quarantine` are loaded only when they have changed.
     pub fn new(
         places: &ExhibitSource,
@@ -92,16 +96,7 @@ impl CatalogLoader {
     ) -> Self {
         let (requests, incoming) = channel::<CatalogRequest>();
         let (sender, events) = channel();
-        let mut worker = Worker {
-            events: sender,
-            queue: folders(places)
-                .into_iter()
-                .filter(|folder| !quarantine.contains(&id(folder)))
-                .map(|folder| (folder, false))
-                .collect(),
-            shown: shown.to_path_buf(),
-            marker,
-        };
+        let mut worker = Worker { events: sender, queue: VecDeque::new(), shown: shown.to_path_buf(), marker };
         let thread = std::thread::Builder::new().name("soffio-exhibits".into()).spawn(move || worker.run(&incoming));
         if let Err(error) = thread {
             tracing::error!("no other exhibit can be loaded: {error}");
@@ -114,7 +109,16 @@ impl CatalogLoader {
         if let Some(Err(error)) = &watcher {
             tracing::warn!("{} is not watched for changes: {error}", watch.display());
         }
-        Self { events, requests, _watcher: watcher.and_then(Result::ok) }
+        let mut unlisted = folders(places);
+        unlisted.retain(|folder| !quarantine.contains(&id(folder)));
+        Self { events, requests, unlisted, _watcher: watcher.and_then(Result::ok) }
+    }
+
+    /// Begins to list the exhibits, once. Before the first frame that would only delay it.
+    pub fn list(&mut self) {
+        if !self.unlisted.is_empty() {
+            let _ = self.requests.send(CatalogRequest::List(std::mem::take(&mut self.unlisted)));
+        }
     }
 
     /// Requests that the exhibit of a folder is loaded and shown. It returns at once; [`CatalogEvent::Show`] or
@@ -168,8 +172,8 @@ impl Worker {
                     let newest = self.newest(folder, requests);
                     self.show(newest)
                 }
-                Some(CatalogRequest::Load(folder)) => {
-                    self.enqueue(folder);
+                Some(request) => {
+                    self.enqueue(request);
                     Ok(())
                 }
                 None => self.queue.pop_front().map_or(Ok(()), |(folder, changed)| self.look(&folder, changed)),
@@ -185,16 +189,21 @@ impl Worker {
         while let Ok(request) = requests.try_recv() {
             match request {
                 CatalogRequest::Show(later) => folder = later,
-                CatalogRequest::Load(changed) => self.enqueue(changed),
+                other => self.enqueue(other),
             }
         }
         folder
     }
 
-    /// A folder has changed. Several changes during a load count as one.
-    fn enqueue(&mut self, folder: PathBuf) {
-        self.queue.retain(|(other, _)| *other != folder);
-        self.queue.push_front((folder, true));
+    /// Takes a request that can wait. Several changes of a folder during a load count as one.
+    fn enqueue(&mut self, request: CatalogRequest) {
+        match request {
+            CatalogRequest::List(folders) => self.queue.extend(folders.into_iter().map(|folder| (folder, false))),
+            CatalogRequest::Show(folder) | CatalogRequest::Load(folder) => {
+                self.queue.retain(|(other, _)| *other != folder);
+                self.queue.push_front((folder, true));
+            }
+        }
     }
 
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {

@@ -45,6 +45,7 @@ impl App<'_> {
         let moment = self.moment(&frame, &begun);
         let Some(Painted { drawn, actions, points }) = self.paint(&frame, &begun, &moment) else { return };
         self.count(drawn, &frame, &begun, &moment);
+        self.exhibits.loader.list();
         self.graphics.moment = moment;
         self.update_attract(&frame);
         self.desk.report_devices(self.pacing.time(), &frame);

@@ -18,13 +18,14 @@ fn a_saved_file_loads_the_exhibit_and_a_bad_one_is_reported() {
     let folder = tempfile::tempdir().expect("a folder");
     let copy = folder.path().join("steel-fish");
     copy_folder(&shipped, &copy);
-    let shelf = CatalogLoader::new(
+    let mut shelf = CatalogLoader::new(
         &ExhibitSource::One(copy.clone()),
         &copy,
         true,
         &Quarantine::default(),
         LoadMarker::default(),
     );
+    shelf.list();
     assert!(
         matches!(shelf.wait(LONG), Some(CatalogEvent::Listed(work)) if work.id == "steel-fish" && work.thumbnail.is_some())
     );
@@ -56,13 +57,14 @@ fn a_saved_timbre_is_loaded_again_and_a_broken_one_leaves_the_exhibit_on_show() 
     for file in ["model.glb", "exhibit.toml", "timbres/whirr.toml"] {
         std::fs::copy(folder.path().join(file), path.join(file)).expect("a copy");
     }
-    let shelf = CatalogLoader::new(
+    let mut shelf = CatalogLoader::new(
         &ExhibitSource::One(path.clone()),
         &path,
         true,
         &Quarantine::default(),
         LoadMarker::default(),
     );
+    shelf.list();
     let first = shelf.wait(LONG);
     assert!(matches!(first, Some(CatalogEvent::Listed(_))), "it is listed first");
     folder.write("wheel/timbres/whirr.toml", WHIRR.replace("scale = 40", "scale = 80").as_bytes());
@@ -92,13 +94,14 @@ fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_
     let places = ExhibitSource::All { folder: site.path().to_path_buf(), show };
     let named: Vec<String> = folders(&places).iter().map(|folder| id(folder)).collect();
     assert_eq!(named, ["steel-fish", "pendulum"]);
-    let shelf = CatalogLoader::new(
+    let mut shelf = CatalogLoader::new(
         &places,
         &site.path().join("steel-fish"),
         true,
         &Quarantine::default(),
         LoadMarker::default(),
     );
+    shelf.list();
     let mut offer = Catalog::new(&places);
     let mut said = Vec::new();
     let mut until = |offer: &mut Catalog, wanted: &[&str]| {
@@ -138,7 +141,8 @@ fn an_exhibit_that_is_set_aside_is_loaded_only_when_its_files_change() {
     });
     let places = ExhibitSource::All { folder: site.path().to_path_buf(), show: vec!["*".into()] };
     let marker = LoadMarker::new(Some(site.path()));
-    let shelf = CatalogLoader::new(&places, &site.path().join("pendulum"), true, &aside, marker.clone());
+    let mut shelf = CatalogLoader::new(&places, &site.path().join("pendulum"), true, &aside, marker.clone());
+    shelf.list();
     let listed = |longest| match shelf.wait(longest) {
         Some(CatalogEvent::Listed(entry)) => Some(entry.id),
         Some(_) => panic!("another event"),
