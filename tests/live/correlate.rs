@@ -4,7 +4,8 @@
 //!
 //! KNOWN is mono noise at 48 kHz, 32-bit floats without a header. Every FILE is read as bytes, or, where its name ends in
 //! `.strace`, as the payloads of the traced writes, in order. The bytes are read as samples of every usual format, rate and alignment,
-//! and as numbers in text. Each reading is correlated with pieces of the recording:
+//! and as numbers in text. A file whose name ends in `.memory` is memory of a process: numbers are aligned there, and may be one
+//! channel of interleaved pairs. Each reading is correlated with pieces of the recording:
 //!
 //! ```text
 //! ρ(n) = Σ t_k x_{n+k} / (|t| |x_n…x_{n+K}|)        largest |ρ| over all n
@@ -42,7 +43,7 @@ fn main() -> ExitCode {
     let mut found = false;
     for file in files {
         let bytes = if file.ends_with(".strace") { payloads(&read(file)) } else { read(file) };
-        let (most, how) = matcher.look(&bytes);
+        let (most, how) = if file.ends_with(".memory") { matcher.look_at_memory(&bytes) } else { matcher.look(&bytes) };
         let verdict = if most > BOUND { "FOUND" } else { "nothing" };
         println!("{verdict} {most:.3} {how} in {} bytes of {file}", bytes.len());
         found |= most > BOUND;
@@ -113,6 +114,23 @@ impl Matcher {
         Self { forward, back, pieces }
     }
 
+    /// The largest |ρ| of any reading of memory, and the format of that reading.
+    fn look_at_memory(&self, bytes: &[u8]) -> (f64, &'static str) {
+        let f32_at = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        let i16_at = |b: &[u8]| f64::from(i16::from_le_bytes([b[0], b[1]])) / 32_768.0;
+        let readings: [(&str, Vec<f64>); 7] = [
+            ("f64", samples(bytes, 8, 0, |b| f64::from_le_bytes(b.try_into().expect("eight bytes")))),
+            ("f32", samples(bytes, 4, 0, f32_at)),
+            ("first of two f32", samples(bytes, 8, 0, f32_at)),
+            ("second of two f32", samples(bytes, 8, 4, f32_at)),
+            ("i16", samples(bytes, 2, 0, i16_at)),
+            ("first of two i16", samples(bytes, 4, 0, i16_at)),
+            ("second of two i16", samples(bytes, 4, 2, i16_at)),
+        ];
+        let correlated = readings.iter().map(|(name, reading)| (self.slide(reading), *name));
+        correlated.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, "at all"))
+    }
+
     /// The largest |ρ| of any reading of the bytes, and the format of that reading.
     fn look(&self, bytes: &[u8]) -> (f64, &'static str) {
         let mut most = (0.0, "at all");
@@ -153,6 +171,10 @@ impl Matcher {
             let mut block = vec![0.0; BLOCK];
             let there = (x.len() - from).min(BLOCK);
             block[..there].copy_from_slice(&x[from..from + there]);
+            from += hop;
+            if block.iter().all(|x| *x == 0.0) {
+                continue;
+            }
             let mut energy: Vec<f64> = Vec::with_capacity(BLOCK + 1);
             energy.push(0.0);
             block.iter().for_each(|x| energy.push(energy[energy.len() - 1] + x * x));
@@ -170,7 +192,6 @@ impl Matcher {
                     }
                 }
             }
-            from += hop;
         }
         most
     }
