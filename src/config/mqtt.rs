@@ -1,5 +1,7 @@
 //! Settings of the MQTT connection to a broker in the museum's network.
 
+use std::path::PathBuf;
+
 use serde::{Deserialize, Serialize};
 
 /// Port of a broker that names none.
@@ -17,6 +19,8 @@ pub struct MqttSettings {
     pub user: String,
     /// Password, sent unencrypted.
     pub password: String,
+    /// File that holds the password instead, relative to the folder of the configuration; empty for none.
+    pub password_file: PathBuf,
     /// Commands that are accepted.
     pub obeys: Vec<MqttOrder>,
 }
@@ -45,6 +49,7 @@ impl Default for MqttSettings {
             topic: "soffio".into(),
             user: String::new(),
             password: String::new(),
+            password_file: PathBuf::new(),
             obeys: vec![Reload, Blank, Wake, Mute, Exhibit],
         }
     }
@@ -65,6 +70,13 @@ impl MqttSettings {
         let bad = !self.broker.is_empty() && self.address().is_none() || self.broker.contains(['/', ' ']);
         let help = "give a host such as \"broker.museum\", with its port after a colon where it is not 1883, or leave it empty";
         bad.then(|| (format!("\"{}\" is no host and port", self.broker), help.into()))
+    }
+
+    /// What is wrong with the password, and what to do.
+    pub(super) fn password_problem(&self) -> Option<(String, String)> {
+        let twice = !self.password.is_empty() && !self.password_file.as_os_str().is_empty();
+        let help = "keep the file and delete mqtt.password, so that the configuration holds no secret";
+        twice.then(|| ("mqtt.password and mqtt.password_file both give a password".into(), help.into()))
     }
 
     /// What is wrong with the topic, and what to do.

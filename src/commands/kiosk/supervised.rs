@@ -1,11 +1,13 @@
 //! A kiosk that somebody starts again when it has died: `kiosk-config/launch`, or systemd.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use soffio_authoring::template::Template;
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::fleet::persisted::{PersistedState, StateStore, folder, last_good};
+use soffio_kiosk::fleet::instance::InstanceLock;
+use soffio_kiosk::fleet::persisted::{PersistedState, StateStore, last_good, make};
 
 /// Set by the launcher from the second start on.
 const RESTARTED: &str = "SOFFIO_RESTARTED";
@@ -37,17 +39,27 @@ pub struct Begun {
     /// Is this one in safe mode?
     pub safe: bool,
     died: bool,
+    /// No second kiosk uses the folder of the state.
+    _lock: Option<InstanceLock>,
 }
 
-/// Begins a run: counts it, and logs a crash of the one before.
-pub fn begin(config: &Config, asked_safe: bool) -> Begun {
-    let (mut store, mut persisted) = StateStore::open(folder(config));
+/// Begins a run with its state in this folder: counts it, and logs a crash of the one before.
+///
+/// # Errors
+/// Another kiosk is running with the same state.
+pub fn begin(folder: Option<PathBuf>, asked_safe: bool) -> Result<Begun, String> {
+    // A folder that cannot be made is reported when it is opened.
+    let lock = match folder.as_deref().filter(|folder| make(folder).is_ok()) {
+        Some(folder) => InstanceLock::take(folder)?,
+        None => None,
+    };
+    let (mut store, mut persisted) = StateStore::open(folder);
     let died = persisted.begin();
     store.begin(&persisted);
     if died {
         tracing::warn!("the run before this one crashed; start {} restores its state", persisted.starts);
     }
-    Begun { store, safe: asked_safe || persisted.wants_safe_mode(), persisted, died }
+    Ok(Begun { store, safe: asked_safe || persisted.wants_safe_mode(), persisted, died, _lock: lock })
 }
 
 impl Begun {
