@@ -11,10 +11,11 @@ use soffio_exhibit::{self as exhibit, Exhibit, Origin};
 use soffio_multibody::collision::{Collider, PairExclusion};
 
 /// Prints each value of an exhibit, or of a configuration, with its origin.
-///
-/// Example: soffio explain steel-fish Boom
-///          soffio explain /etc/soffio/kiosk.toml
 #[derive(clap::Args, Debug, Default)]
+#[command(after_help = "\
+Examples:
+  soffio explain steel-fish Boom
+  soffio explain /etc/soffio/kiosk.toml")]
 pub struct Args {
     /// Exhibit id or folder, or a configuration (.toml).
     exhibit: String,

@@ -4,8 +4,8 @@
 //!
 //! KNOWN is mono noise at 48 kHz, 32-bit floats without a header. Every FILE is read as bytes, or, where its name ends in
 //! `.strace`, as the payloads of the traced writes, in order. The bytes are read as samples of every usual format, rate and alignment,
-//! and as numbers in text. A file whose name ends in `.memory` is memory of a process: numbers are aligned there, and may be one
-//! channel of interleaved pairs. Each reading is correlated with pieces of the recording:
+//! and as numbers in text. A file whose name ends in `.memory` is memory of a process: numbers are aligned there, have the rate of the
+//! device, and may be one channel of interleaved pairs. Each reading is correlated with pieces of the recording:
 //!
 //! ```text
 //! ρ(n) = Σ t_k x_{n+k} / (|t| |x_n…x_{n+K}|)        largest |ρ| over all n
@@ -127,7 +127,9 @@ impl Matcher {
             ("first of two i16", samples(bytes, 4, 0, i16_at)),
             ("second of two i16", samples(bytes, 4, 2, i16_at)),
         ];
-        let correlated = readings.iter().map(|(name, reading)| (self.slide(reading), *name));
+        // The first pieces are those at the rate of the recording.
+        let at_its_rate = &self.pieces[..PLACES.len()];
+        let correlated = readings.iter().map(|(name, reading)| (self.slide(reading, at_its_rate), *name));
         correlated.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, "at all"))
     }
 
@@ -135,7 +137,7 @@ impl Matcher {
     fn look(&self, bytes: &[u8]) -> (f64, &'static str) {
         let mut most = (0.0, "at all");
         let mut hold = |name: &'static str, x: Vec<f64>| {
-            let rho = self.slide(&x);
+            let rho = self.slide(&x, &self.pieces);
             if rho > most.0 {
                 most = (rho, name);
             }
@@ -160,8 +162,8 @@ impl Matcher {
         most
     }
 
-    /// The largest |ρ| of any piece at any place.
-    fn slide(&self, x: &[f64]) -> f64 {
+    /// The largest |ρ| of any of these pieces at any place.
+    fn slide(&self, x: &[f64], pieces: &[Vec<Complex<f64>>]) -> f64 {
         let hop = BLOCK - PIECE;
         let (mut spectrum, mut product) = (self.forward.make_output_vec(), self.forward.make_output_vec());
         let mut product_time = self.back.make_output_vec();
@@ -172,14 +174,15 @@ impl Matcher {
             let there = (x.len() - from).min(BLOCK);
             block[..there].copy_from_slice(&x[from..from + there]);
             from += hop;
-            if block.iter().all(|x| *x == 0.0) {
+            // A copy of a piece needs as many samples.
+            if block.iter().filter(|x| **x != 0.0).count() < PIECE / 2 {
                 continue;
             }
             let mut energy: Vec<f64> = Vec::with_capacity(BLOCK + 1);
             energy.push(0.0);
             block.iter().for_each(|x| energy.push(energy[energy.len() - 1] + x * x));
             self.forward.process(&mut block, &mut spectrum).expect("lengths fit");
-            for piece in &self.pieces {
+            for piece in pieces {
                 product.iter_mut().zip(spectrum.iter().zip(piece)).for_each(|(p, (s, t))| *p = s * t);
                 // Rounding may leave an imaginary part here.
                 (product[0].im, product[BLOCK / 2].im) = (0.0, 0.0);

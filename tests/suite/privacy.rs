@@ -69,8 +69,11 @@ fn a_crash_leaves_no_core_dump() {
     let soffio = env!("CARGO_BIN_EXE_soffio");
     for signal in ["SEGV", "ABRT"] {
         let desk = Desk::new();
+        let exhibits = concat!(env!("CARGO_MANIFEST_DIR"), "/exhibits");
+        desk.write("site.toml", format!("[exhibits]\nfolder = {exhibits:?}\n"));
         let mut command = Command::new("sh");
-        command.args(["-c", &format!("ulimit -c unlimited; exec {soffio} kiosk")]).current_dir(desk.path(""));
+        command.args(["-c", &format!("ulimit -c unlimited; exec {soffio} kiosk --config site.toml")]);
+        command.current_dir(desk.path(""));
         for variable in ["DISPLAY", "WAYLAND_DISPLAY", "STATE_DIRECTORY"] {
             command.env_remove(variable);
         }

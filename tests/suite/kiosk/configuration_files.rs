@@ -4,6 +4,9 @@ use std::path::Path;
 
 use soffio_config::{Config, LoadedConfig, STAFF_FILE};
 
+#[cfg(feature = "kiosk")]
+use crate::cli::Desk;
+
 fn layered(text: &str) -> LoadedConfig {
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join(STAFF_FILE), text).expect("writable");
@@ -56,4 +59,27 @@ fn a_password_comes_from_its_own_file_and_a_missing_one_is_a_warning() {
     std::fs::write(&file, "[mqtt]\npassword = \"a\"\npassword_file = \"broker.secret\"\n").expect("writable");
     let error = Config::load(Some(&file)).expect_err("two passwords").to_string();
     assert!(error.contains(":3:") && error.contains("mqtt.password"), "{error}");
+}
+
+#[cfg(feature = "kiosk")]
+#[test]
+fn explain_says_of_each_value_where_it_comes_from_and_shows_no_secret() {
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("state")).expect("writable");
+    let state = desk.path("state").to_string_lossy().into_owned();
+    desk.write(
+        "site.toml",
+        format!("[breath]\ngain = 2.0\nsensitivity_db = 3.0\n[mqtt]\npassword = \"open sesame\"\n[staff]\nstate = {state:?}\n"),
+    );
+    desk.write("state/overrides.toml", "[breath]\nsensitivity_db = -4.0\n");
+    let explained = desk.soffio(&["explain", "site.toml"]);
+    let line = |key: &str| {
+        let line = explained.done().lines().find(|line| line.trim_start().starts_with(key));
+        line.unwrap_or_else(|| panic!("no {key}: {}", explained.out)).to_owned()
+    };
+    assert!(line("gain").contains("2.0") && line("gain").contains("[site.toml]"), "{}", line("gain"));
+    let sensitivity = line("sensitivity_db");
+    assert!(sensitivity.contains("-4.0") && sensitivity.contains("staff panel"), "{sensitivity}");
+    assert!(line("threshold").contains("[default]"), "{}", line("threshold"));
+    assert!(!explained.out.contains("sesame") && line("password ").contains("(set)"), "{}", explained.out);
 }

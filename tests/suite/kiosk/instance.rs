@@ -14,7 +14,11 @@ const START: Duration = Duration::from_secs(20);
 fn a_second_kiosk_with_the_same_state_is_refused_and_counts_no_crash() {
     let desk = Desk::new();
     let state = desk.path("state");
-    desk.write("site.toml", format!("[staff]\nstate = {:?}\n", state.to_string_lossy()));
+    let exhibits = concat!(env!("CARGO_MANIFEST_DIR"), "/exhibits");
+    desk.write(
+        "site.toml",
+        format!("[exhibits]\nfolder = {exhibits:?}\n[staff]\nstate = {:?}\n", state.to_string_lossy()),
+    );
     let arguments = ["kiosk", "--config", "site.toml"];
     std::fs::create_dir(&state).expect("writable");
     let lock = InstanceLock::take(&state).expect("nobody else").expect("a lock");
