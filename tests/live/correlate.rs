@@ -29,8 +29,8 @@ const BOUND: f64 = 0.2;
 const RATES: [f64; 4] = [1.0, 44_100.0 / 48_000.0, 1.0 / 3.0, 1.0 / 6.0];
 /// Number of text columns that are read.
 const COLUMNS: usize = 8;
-/// Places of the pieces, as shares of the recording.
-const PLACES: [f64; 2] = [0.25, 0.6];
+/// Places of the pieces, as shares of the recording. The last one is what a ring of the last seconds still holds.
+const PLACES: [f64; 3] = [0.25, 0.6, 0.85];
 
 fn main() -> ExitCode {
     let files: Vec<String> = std::env::args().skip(1).collect();
