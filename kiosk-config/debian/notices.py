@@ -3,7 +3,8 @@
 
 Writes the third-party notices: name, version, licence, repository and licence texts of each package that is linked
 into the program `soffio`. With --debian-copyright it writes Debian's machine-readable `copyright` file instead, which
-covers Soffio's own files and refers to the notices.
+covers Soffio's own files and refers to the notices. With --sbom it writes a software bill of materials in CycloneDX 1.5
+(JSON): the packages with version, licence, checksum of their archive, and which depends on which.
 
 The packages are those that `cargo metadata` reaches from `soffio` by normal dependencies, for 64-bit Linux. Cargo
 resolves features for the whole workspace there, so a few packages may be listed that the linker leaves out.
@@ -261,6 +262,86 @@ License: Apache-2.0
 """
 
 
+def archive_checksums():
+    """SHA-256 of the registry's archive of each package, from Cargo.lock, by name and version."""
+    found, package = {}, {}
+    for line in (ROOT / "Cargo.lock").read_text(encoding="utf-8").split("\n"):
+        if line == "[[package]]":
+            package = {}
+        elif entry := re.match(r'(name|version|checksum) = "(.+)"$', line):
+            package[entry[1]] = entry[2]
+            if entry[1] == "checksum":
+                found[package["name"], package["version"]] = entry[2]
+    return found
+
+
+def sbom(metadata):
+    """A software bill of materials in CycloneDX 1.5. It has no time and no random number, so that it can be made again."""
+    own, packages, checksums = own_package(metadata), linked_packages(metadata), archive_checksums()
+    names = {package["id"]: f"pkg:cargo/{package['name']}@{package['version']}" for package in packages}
+    nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
+    workspace = set(metadata["workspace_members"])
+
+    def component(package):
+        entry = {
+            "type": "library",
+            "bom-ref": names[package["id"]],
+            "name": package["name"],
+            "version": package["version"],
+            "purl": names[package["id"]],
+            "scope": "required",
+        }
+        if expression(package):
+            # A single licence is an id; everything else is an expression.
+            single = re.fullmatch(r"[A-Za-z0-9.+-]+", expression(package))
+            entry["licenses"] = [{"license": {"id": single[0]}}] if single else [{"expression": expression(package)}]
+        else:
+            entry["licenses"] = [{"license": {"name": f"see {package['license_file']}"}}]
+        checksum = checksums.get((package["name"], package["version"]))
+        if checksum is None:
+            raise Problem(f"Cargo.lock has no checksum of {title(package)}. Take it from the registry.")
+        entry["hashes"] = [{"alg": "SHA-256", "content": checksum}]
+        if package["repository"]:
+            entry["externalReferences"] = [{"type": "vcs", "url": package["repository"]}]
+        return entry
+
+    def used_by(start):
+        """Third-party packages that a package uses, directly or through Soffio's own crates."""
+        used, seen, waiting = set(), set(), [start]
+        while waiting:
+            for dependency in nodes[waiting.pop()]["deps"]:
+                node = dependency["pkg"]
+                if node in seen or not any(kind["kind"] is None for kind in dependency["dep_kinds"]):
+                    continue
+                seen.add(node)
+                if node in workspace:
+                    waiting.append(node)
+                elif node in names:
+                    used.add(names[node])
+        return sorted(used)
+
+    program = f"pkg:generic/{PROGRAM}@{own['version']}"
+    bill = {
+        "bomFormat": "CycloneDX",
+        "specVersion": "1.5",
+        "version": 1,
+        "metadata": {
+            "component": {
+                "type": "application",
+                "bom-ref": program,
+                "name": PROGRAM,
+                "version": own["version"],
+                "purl": program,
+                "licenses": [{"expression": own["license"]}],
+            }
+        },
+        "components": [component(package) for package in packages],
+        "dependencies": [{"ref": program, "dependsOn": used_by(own["id"])}]
+        + [{"ref": names[package["id"]], "dependsOn": used_by(package["id"])} for package in packages],
+    }
+    return json.dumps(bill, indent=1, ensure_ascii=False) + "\n"
+
+
 def write_whole(path, text):
     """Writes a file in one piece: a failure leaves what was there before."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -283,10 +364,12 @@ def main():
     )
     parser.add_argument("-o", "--output", metavar="FILE", type=Path, help="write to FILE instead of the standard output")
     parser.add_argument("--debian-copyright", action="store_true", help="write Debian's `copyright` file instead of the notices")
+    parser.add_argument("--sbom", action="store_true", help="write a software bill of materials (CycloneDX, JSON) instead of the notices")
     given = parser.parse_args()
     try:
         metadata = read_metadata()
-        text = debian_copyright(metadata) if given.debian_copyright else notices(metadata)
+        make = debian_copyright if given.debian_copyright else sbom if given.sbom else notices
+        text = make(metadata)
         if given.output:
             write_whole(given.output, text)
         else:

@@ -1,18 +1,23 @@
-//! `soffio explain`: every resolved value of an exhibit and where it comes from.
+//! `soffio explain`: every resolved value of an exhibit, or of a configuration, and where it comes from.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use super::failure::{Failure, Outcome};
+use super::setup;
+use soffio_config::{Config, LoadedConfig};
 use soffio_exhibit::diagnostic::{quoted, similar_names};
 use soffio_exhibit::{self as exhibit, Exhibit, Origin};
 use soffio_multibody::collision::{Collider, PairExclusion};
 
-/// Prints each value of an exhibit with its origin.
-///
-/// Example: soffio explain steel-fish Boom
+/// Prints each value of an exhibit, or of a configuration, with its origin.
 #[derive(clap::Args, Debug, Default)]
+#[command(after_help = "\
+Examples:
+  soffio explain steel-fish Boom
+  soffio explain /etc/soffio/kiosk.toml")]
 pub struct Args {
-    /// Exhibit id or folder.
+    /// Exhibit id or folder, or a configuration (.toml).
     exhibit: String,
     /// Only this body, with everything that names it.
     body: Option<String>,
@@ -20,6 +25,12 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
+    let file = Path::new(&args.exhibit);
+    if file.extension().is_some_and(|extension| extension == "toml") && args.body.is_none() {
+        let loaded = setup::with_staff_overrides(Config::load(Some(file)).map_err(Failure::input)?);
+        print!("{}", explain_config(&loaded));
+        return Ok(());
+    }
     let folder = exhibit::resolve(&args.exhibit).map_err(Failure::input)?;
     let exhibit = exhibit::load(&folder).map_err(Failure::input)?;
     let text = match &args.body {
@@ -40,6 +51,38 @@ pub fn run(args: Args) -> Outcome {
     };
     print!("{text}");
     Ok(())
+}
+
+/// A configuration as text: its values, and whether each is the default, from the file, or set in the staff panel. Secrets are not
+/// shown.
+pub fn explain_config(loaded: &LoadedConfig) -> String {
+    /// Keys whose values are secret.
+    const SECRET: [&str; 2] = ["staff.pin", "mqtt.password"];
+    // A configuration of plain values always has a form in TOML.
+    let table = |config: &Config| toml::Table::try_from(config).unwrap_or_default();
+    let (values, defaults) = (table(&loaded.config), table(&Config::default()));
+    let mut out = String::new();
+    for (name, value) in &values {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "\n[{name}]");
+        for (key, value) in value.as_table().into_iter().flatten() {
+            let dotted = format!("{name}.{key}");
+            let default = defaults.get(name).and_then(|table| table.get(key));
+            let source = match (&loaded.staff, &loaded.file) {
+                (Some(staff), _) if staff.keys.contains(&dotted) => format!("staff panel: {}", staff.file.display()),
+                _ if default == Some(value) => "default".into(),
+                (_, Some(file)) => file.display().to_string(),
+                (_, None) => "built in".into(),
+            };
+            let secret = SECRET.contains(&dotted.as_str()) && default != Some(value);
+            let value = if secret { "(set)".into() } else { value.to_string() };
+            let _ = writeln!(out, "  {key:<28} {value}   [{source}]");
+        }
+    }
+    if let Some(problem) = loaded.staff.as_ref().filter(|staff| staff.problem.is_some()) {
+        let _ = writeln!(out, "\n{}", problem.summary());
+    }
+    out
 }
 
 /// The whole exhibit as text.

@@ -10,7 +10,7 @@ pub type Outcome = Result<(), Failure>;
 /// How a command ended when it did not succeed.
 #[derive(Debug)]
 pub struct Failure {
-    /// 1 bad input or problems found, 2 usage, 3 a device or driver is missing, 130 interrupted.
+    /// 1 bad input or problems found, 2 usage, 3 a device or driver is missing or another kiosk has it, 130 interrupted.
     pub code: u8,
     /// Message with place, reason and remedy. Empty where everything is printed already.
     pub message: String,
@@ -22,7 +22,7 @@ impl Failure {
         Self { code: 1, message: message.to_string() }
     }
 
-    /// A device or driver is missing.
+    /// A device or driver is missing, or another kiosk is running.
     pub fn device(message: impl std::fmt::Display) -> Self {
         Self { code: 3, message: message.to_string() }
     }

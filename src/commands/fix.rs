@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use soffio_exhibit::renamed::{self, FileKind};
 use soffio_exhibit::{self as exhibit, SIDECAR};
+use soffio_offline::atomic_file::AtomicFile;
 
 /// A file that is going to be rewritten.
 struct Rewrite {
@@ -26,8 +27,8 @@ pub(super) fn run(paths: &[String]) -> Result<(), Failure> {
         }
     }
     let ready = rewrites.iter().map(Rewrite::write_aside).collect::<Result<Vec<_>, _>>()?;
-    for (rewrite, (aside, real)) in rewrites.iter().zip(ready) {
-        aside.persist(&real).map_err(|error| rewrite.cannot("be written", &error.error))?;
+    for (rewrite, aside) in rewrites.iter().zip(ready) {
+        aside.finish_durably().map_err(Failure::input)?;
         rewrite.changes.iter().for_each(|change| eprintln!("{change}"));
     }
     Ok(())
@@ -81,22 +82,13 @@ fn well_formed(kind: FileKind, text: &str) -> Result<(), String> {
 }
 
 impl Rewrite {
-    /// Writes the text beside the file, with the file's permissions. Returns it and the file that it replaces, links
-    /// resolved.
-    fn write_aside(&self) -> Result<(tempfile::NamedTempFile, PathBuf), Failure> {
-        let write = || -> std::io::Result<_> {
-            let real = self.file.canonicalize()?;
-            let folder = real.parent().unwrap_or(Path::new("."));
-            let mut aside = tempfile::NamedTempFile::new_in(folder)?;
+    /// Writes the text beside the file, or beside the one that it links to, with the same permissions.
+    fn write_aside(&self) -> Result<AtomicFile, Failure> {
+        let write = || {
+            let mut aside = AtomicFile::create(&self.file)?;
             aside.write_all(self.text.as_bytes())?;
-            aside.as_file().set_permissions(std::fs::metadata(&real)?.permissions())?;
-            aside.as_file().sync_all()?;
-            Ok((aside, real))
+            Ok(aside)
         };
-        write().map_err(|error| self.cannot("be written", &error))
-    }
-
-    fn cannot(&self, what: &str, why: &std::io::Error) -> Failure {
-        Failure::input(format!("{} cannot {what}: {why}; check the folder and its permissions", self.file.display()))
+        write().map_err(|error: std::io::Error| Failure::input(error))
     }
 }

@@ -75,7 +75,7 @@ pub fn report(config: &Config) -> Report {
         all.push(kept(
             "microphone samples, from which level, bands and onset of a breath are computed",
             "memory",
-            "the next few steps, a fraction of a second; for the noise of the room, mean spectra of some seconds",
+            "the next step, a fraction of a second, then they are overwritten; for the noise of the room, mean spectra of some seconds",
         ));
     }
     if config.visit.breath {
@@ -116,7 +116,7 @@ pub fn report(config: &Config) -> Report {
         all.push(kept(&what, &metrics.display().to_string(), "15 s, then they are replaced"));
     }
     let not_kept = vec![
-        "sound: no microphone sample is ever written to a file or sent anywhere",
+        "sound: no microphone sample is ever written to a file or sent anywhere; the kiosk allows no core dump, a file with its memory",
         "pictures of people: there is no camera",
         "names, faces, voices, or anything that could identify a visitor",
         "where a visitor touched or pointed, unless an engineer has started a record (above)",

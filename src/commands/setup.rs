@@ -31,6 +31,15 @@ pub fn config(file: Option<&Path>) -> Result<Config, Failure> {
     Ok(loaded.config)
 }
 
+/// The configuration with the settings that staff saved in their panel.
+pub fn with_staff_overrides(loaded: LoadedConfig) -> LoadedConfig {
+    #[cfg(feature = "kiosk")]
+    if let Some(folder) = soffio_kiosk::fleet::persisted::folder(&loaded.config) {
+        return loaded.with_staff_overrides(&folder);
+    }
+    loaded
+}
+
 /// Says on stderr which old names a configuration has.
 fn print_warnings(loaded: &LoadedConfig) {
     loaded.warning_texts().for_each(|warning| eprintln!("{warning}"));

@@ -100,7 +100,8 @@ pub(super) fn parse(text: &str, file: &Path) -> Result<(Config, Vec<Problem>), C
             .chain([("exhibits", "groups", groups(&config))])
             .chain([("night", one_end, night(&config)), ("staff", "chord", chords(&config))])
             .chain([("mqtt", "broker", config.mqtt.broker_problem()), ("mqtt", "topic", config.mqtt.topic_problem())])
-            .chain([("mqtt", "certificate", config.mqtt.certificate_problem())]);
+            .chain([("mqtt", "certificate", config.mqtt.certificate_problem())])
+            .chain([("mqtt", "password_file", config.mqtt.password_problem())]);
     let problems: Vec<Problem> = together
         .filter_map(|(table, key, problem)| {
             let item = document.get(table).and_then(|table| table.get(key));

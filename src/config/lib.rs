@@ -6,7 +6,7 @@
 //!
 //! Invariant: a [`Config`] that came from [`Config::load`] or [`Config::parse`] is inside every range of [`LIMITS`].
 //!
-//! It reads one file, and writes none. It never applies a setting: the kiosk and the program do. A mistake in the file is a
+//! It reads one file, the password that this may name, and the settings of staff over it ([`StaffOverrides`]). It writes none. It never applies a setting: the kiosk and the program do. A mistake in the file is a
 //! [`ConfigError`] that lists all problems with their lines and the nearest valid key. Old names of keys are read with a
 //! warning (`soffio_exhibit::renamed`).
 //!
@@ -49,6 +49,8 @@ mod mqtt;
 mod opening;
 mod pin;
 pub mod remedies;
+mod secret_file;
+mod staff_overrides;
 mod time_text;
 
 pub use chord::{Chord, Modifiers};
@@ -59,6 +61,7 @@ pub use maintenance::{CLEANING_S, MaintenanceSettings};
 pub use mqtt::{MqttOrder, MqttSettings};
 pub use opening::{Day, Holiday, OpenHours, Opening};
 pub use pin::{DIGITS, Pin};
+pub use staff_overrides::{STAFF_FILE, STAFF_KEYS, StaffOverrides};
 
 /// Place of the file, below the working directory or one of its parents.
 pub const FILE: &str = "kiosk-config/kiosk.toml";
@@ -437,6 +440,8 @@ pub struct Staff {
     pub open: Chord,
     /// Keys that mute and unmute the kiosk.
     pub mute: Chord,
+    /// Do the keys of `mute` work without the PIN?
+    pub mute_without_pin: bool,
     /// Keys that switch from the configured hours to night, to day, and back.
     pub night: Chord,
     /// File for the kiosk's metrics, written every 15 s in the text format of Prometheus; empty: none.
@@ -455,6 +460,7 @@ impl Default for Staff {
             closes_s: 120.0,
             open: chord("O"),
             mute: chord("M"),
+            mute_without_pin: false,
             night: chord("N"),
             metrics: PathBuf::new(),
             state: PathBuf::new(),
@@ -526,8 +532,10 @@ pub struct LoadedConfig {
     pub config: Config,
     /// The file; `None` for the built-in default.
     pub file: Option<PathBuf>,
-    /// Old names in the file, which were read as the new ones.
+    /// Old names in the file, which were read as the new ones, and secrets that cannot be read.
     pub warnings: Vec<Problem>,
+    /// Settings of the staff panel over the file; `None` where there are none.
+    pub staff: Option<StaffOverrides>,
 }
 
 impl LoadedConfig {
@@ -549,8 +557,9 @@ impl Config {
         let found = path.map(Path::to_path_buf).or_else(find);
         let Some(file) = found else { return Ok(LoadedConfig::default()) };
         let text = std::fs::read_to_string(&file).map_err(|error| ConfigError::unreadable(&file, &error))?;
-        let (config, warnings) = diagnose::parse(&text, &file)?;
-        Ok(LoadedConfig { config, file: Some(file), warnings })
+        let (mut config, mut warnings) = diagnose::parse(&text, &file)?;
+        warnings.extend(secret_file::read_password(&mut config.mqtt, &file));
+        Ok(LoadedConfig { config, file: Some(file), warnings, staff: None })
     }
 
     /// Reads a configuration from the text of `file`, whose name appears in messages.

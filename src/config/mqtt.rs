@@ -19,6 +19,8 @@ pub struct MqttSettings {
     pub user: String,
     /// Password; unencrypted without `authority`.
     pub password: String,
+    /// File that holds the password instead, relative to the folder of the configuration; empty for none.
+    pub password_file: PathBuf,
     /// File of the certificates (PEM) that the broker's own must come from: the connection is encrypted. Empty for none.
     pub authority: PathBuf,
     /// File of the kiosk's own certificate (PEM), for a broker that asks for one; empty for none.
@@ -52,6 +54,7 @@ impl Default for MqttSettings {
             topic: "soffio".into(),
             user: String::new(),
             password: String::new(),
+            password_file: PathBuf::new(),
             authority: PathBuf::new(),
             certificate: PathBuf::new(),
             key: PathBuf::new(),
@@ -96,6 +99,13 @@ impl MqttSettings {
         let bad = !self.broker.is_empty() && self.address().is_none() || self.broker.contains(['/', ' ']);
         let help = "give a host such as \"broker.museum\", with its port after a colon where it is not 1883 (8883 if encrypted), or leave it empty";
         bad.then(|| (format!("\"{}\" is no host and port", self.broker), help.into()))
+    }
+
+    /// What is wrong with the password, and what to do.
+    pub(super) fn password_problem(&self) -> Option<(String, String)> {
+        let twice = !self.password.is_empty() && !self.password_file.as_os_str().is_empty();
+        let help = "keep the file and delete mqtt.password, so that the configuration holds no secret";
+        twice.then(|| ("mqtt.password and mqtt.password_file both give a password".into(), help.into()))
     }
 
     /// What is wrong with the topic, and what to do.

@@ -15,6 +15,7 @@
 //! Invariant: outputs depend on the samples alone, never on how they were cut into blocks.
 
 use soffio_math::{PI, cos, sin};
+use zeroize::Zeroize;
 
 /// The internal rate, Hz.
 pub const INTERNAL_RATE: u32 = 8000;
@@ -88,6 +89,13 @@ impl Resampler {
         let recent = &self.history[self.next..self.next + self.taps];
         let (a, b) = (dot(recent, near), dot(recent, far));
         Some(a + blend * (b - a))
+    }
+}
+
+impl Drop for Resampler {
+    /// Overwrites the last samples.
+    fn drop(&mut self) {
+        self.history.zeroize();
     }
 }
 

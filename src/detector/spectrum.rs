@@ -19,6 +19,7 @@ use soffio_fourier::{Complex, Fft, forward};
 
 use super::resample::INTERNAL_RATE;
 use soffio_math::{PI, cos};
+use zeroize::Zeroize;
 
 /// Length of a frame, internal samples (48 ms: three periods of the lowest voice).
 const WINDOW: usize = 384;
@@ -140,6 +141,20 @@ impl Framer {
         }
         self.buffer[WINDOW..].fill(Complex::default());
         self.transform.process_with_scratch(&mut self.buffer, &mut self.scratch);
+    }
+}
+
+impl Drop for Framer {
+    /// Overwrites the last samples, and the spectra from which they could be restored.
+    fn drop(&mut self) {
+        for sample in &mut self.ring {
+            sample.left.zeroize();
+            sample.right.zeroize();
+        }
+        for z in self.buffer.iter_mut().chain(&mut self.scratch).chain(self.channels.as_flattened_mut()) {
+            z.re.zeroize();
+            z.im.zeroize();
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use soffio_config::Config;
+use soffio_devices::protection::forbid_core_dumps;
 use soffio_record_breaths::microphone::Microphone;
 use soffio_record_breaths::session::{Plan, guide};
 
@@ -27,8 +28,8 @@ struct Arguments {
 
 fn main() -> ExitCode {
     let Arguments { folder, config, breaths, minutes } = Arguments::parse();
-    let loaded = Config::load(config.as_deref()).map_err(|error| error.to_string());
-    let result = loaded.and_then(|loaded| {
+    let loaded = || Config::load(config.as_deref()).map_err(|error| error.to_string());
+    let result = forbid_core_dumps().and_then(|()| loaded()).and_then(|loaded| {
         let mut microphone = Microphone::open(&loaded.config);
         let plan = Plan { breaths, ambient_s: 60.0 * minutes };
         guide(&folder, plan, &mut std::io::stdin().lock(), &mut std::io::stdout(), &mut |seconds| {

@@ -50,8 +50,8 @@ impl Microphone {
                 ));
             }
         }
-        let mut channels = vec![samples.samples];
-        channels.extend(Some(samples.second).filter(|second| !second.is_empty()));
+        let mut channels = vec![std::mem::take(&mut *samples.samples)];
+        channels.extend(Some(std::mem::take(&mut *samples.second)).filter(|second| !second.is_empty()));
         Ok(Recorded { channels, sample_rate: rate.unwrap_or(0) })
     }
 }

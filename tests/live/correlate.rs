@@ -4,7 +4,8 @@
 //!
 //! KNOWN is mono noise at 48 kHz, 32-bit floats without a header. Every FILE is read as bytes, or, where its name ends in
 //! `.strace`, as the payloads of the traced writes, in order. The bytes are read as samples of every usual format, rate and alignment,
-//! and as numbers in text. Each reading is correlated with pieces of the recording:
+//! and as numbers in text. A file whose name ends in `.memory` is memory of a process: numbers are aligned there, have the rate of the
+//! device, and may be one channel of interleaved pairs. Each reading is correlated with pieces of the recording:
 //!
 //! ```text
 //! ρ(n) = Σ t_k x_{n+k} / (|t| |x_n…x_{n+K}|)        largest |ρ| over all n
@@ -28,8 +29,8 @@ const BOUND: f64 = 0.2;
 const RATES: [f64; 4] = [1.0, 44_100.0 / 48_000.0, 1.0 / 3.0, 1.0 / 6.0];
 /// Number of text columns that are read.
 const COLUMNS: usize = 8;
-/// Places of the pieces, as shares of the recording.
-const PLACES: [f64; 2] = [0.25, 0.6];
+/// Places of the pieces, as shares of the recording. The last one is what a ring of the last seconds still holds.
+const PLACES: [f64; 3] = [0.25, 0.6, 0.85];
 
 fn main() -> ExitCode {
     let files: Vec<String> = std::env::args().skip(1).collect();
@@ -42,7 +43,7 @@ fn main() -> ExitCode {
     let mut found = false;
     for file in files {
         let bytes = if file.ends_with(".strace") { payloads(&read(file)) } else { read(file) };
-        let (most, how) = matcher.look(&bytes);
+        let (most, how) = if file.ends_with(".memory") { matcher.look_at_memory(&bytes) } else { matcher.look(&bytes) };
         let verdict = if most > BOUND { "FOUND" } else { "nothing" };
         println!("{verdict} {most:.3} {how} in {} bytes of {file}", bytes.len());
         found |= most > BOUND;
@@ -113,11 +114,30 @@ impl Matcher {
         Self { forward, back, pieces }
     }
 
+    /// The largest |ρ| of any reading of memory, and the format of that reading.
+    fn look_at_memory(&self, bytes: &[u8]) -> (f64, &'static str) {
+        let f32_at = |b: &[u8]| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]));
+        let i16_at = |b: &[u8]| f64::from(i16::from_le_bytes([b[0], b[1]])) / 32_768.0;
+        let readings: [(&str, Vec<f64>); 7] = [
+            ("f64", samples(bytes, 8, 0, |b| f64::from_le_bytes(b.try_into().expect("eight bytes")))),
+            ("f32", samples(bytes, 4, 0, f32_at)),
+            ("first of two f32", samples(bytes, 8, 0, f32_at)),
+            ("second of two f32", samples(bytes, 8, 4, f32_at)),
+            ("i16", samples(bytes, 2, 0, i16_at)),
+            ("first of two i16", samples(bytes, 4, 0, i16_at)),
+            ("second of two i16", samples(bytes, 4, 2, i16_at)),
+        ];
+        // The first pieces are those at the rate of the recording.
+        let at_its_rate = &self.pieces[..PLACES.len()];
+        let correlated = readings.iter().map(|(name, reading)| (self.slide(reading, at_its_rate), *name));
+        correlated.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, "at all"))
+    }
+
     /// The largest |ρ| of any reading of the bytes, and the format of that reading.
     fn look(&self, bytes: &[u8]) -> (f64, &'static str) {
         let mut most = (0.0, "at all");
         let mut hold = |name: &'static str, x: Vec<f64>| {
-            let rho = self.slide(&x);
+            let rho = self.slide(&x, &self.pieces);
             if rho > most.0 {
                 most = (rho, name);
             }
@@ -142,8 +162,8 @@ impl Matcher {
         most
     }
 
-    /// The largest |ρ| of any piece at any place.
-    fn slide(&self, x: &[f64]) -> f64 {
+    /// The largest |ρ| of any of these pieces at any place.
+    fn slide(&self, x: &[f64], pieces: &[Vec<Complex<f64>>]) -> f64 {
         let hop = BLOCK - PIECE;
         let (mut spectrum, mut product) = (self.forward.make_output_vec(), self.forward.make_output_vec());
         let mut product_time = self.back.make_output_vec();
@@ -153,11 +173,16 @@ impl Matcher {
             let mut block = vec![0.0; BLOCK];
             let there = (x.len() - from).min(BLOCK);
             block[..there].copy_from_slice(&x[from..from + there]);
+            from += hop;
+            // A copy of a piece needs as many samples.
+            if block.iter().filter(|x| **x != 0.0).count() < PIECE / 2 {
+                continue;
+            }
             let mut energy: Vec<f64> = Vec::with_capacity(BLOCK + 1);
             energy.push(0.0);
             block.iter().for_each(|x| energy.push(energy[energy.len() - 1] + x * x));
             self.forward.process(&mut block, &mut spectrum).expect("lengths fit");
-            for piece in &self.pieces {
+            for piece in pieces {
                 product.iter_mut().zip(spectrum.iter().zip(piece)).for_each(|(p, (s, t))| *p = s * t);
                 // Rounding may leave an imaginary part here.
                 (product[0].im, product[BLOCK / 2].im) = (0.0, 0.0);
@@ -170,7 +195,6 @@ impl Matcher {
                     }
                 }
             }
-            from += hop;
         }
         most
     }

@@ -258,8 +258,8 @@ disk_full() {
     bar "disk full: keeps running" "$code == 0 && $seen == 1 && $(breaths full hold begins | wc -l) == 1" \
         "exit code $code, a picture, $(breaths full hold begins | wc -l) breath"
     # Start, copy of the configuration, state and metrics are reported once each, however often they are tried.
-    bar "disk full: reported once" "$said == 4 && $(find "$workdir/full" -type f | wc -l) == 0" \
-        "$said warnings, $(find "$workdir/full" -type f | wc -l) half-written files"
+    bar "disk full: reported once" "$said == 4 && $(find "$workdir/full" -type f ! -name kiosk.lock | wc -l) == 0" \
+        "$said warnings, $(find "$workdir/full" -type f ! -name kiosk.lock | wc -l) half-written files"
 }
 
 # ---- the configuration breaks while it runs, and at the next start ------------------------------------------------------

@@ -328,9 +328,10 @@ hushed() { ! speaks; }
 
 # ---- no sample of the microphone is ever written, sent, or mapped in shared memory ---------------------------------
 # A known noise is played at the microphone. All writes and sends of the kiosk are traced, its shared memory is read while it runs, and
-# its files are read afterwards. Nothing may resemble the noise, except planted copies, which must be found.
+# its files are read afterwards. All of the kiosk's memory is read as soon as the noise ends, when a ring of two seconds would still hold
+# half of it. Nothing may resemble the noise, except planted copies, which must be found. No core dump may be possible.
 privacy() {
-    local address pid kiosk_soffio=$soffio found=0 planted file
+    local address pid kiosk_soffio=$soffio found=0 planted file cores
     if ! command -v strace >/dev/null; then
         cannot "privacy" "strace is missing: apt-get install strace"
         return
@@ -343,6 +344,8 @@ privacy() {
     sox "$workdir/known.wav" -t raw "$workdir/known.f32"
     sox "$workdir/known.wav" -r 16000 -t raw -e signed -b 16 "$workdir/planted.i16"
     od -An -v -w4 -tf4 "$workdir/known.f32" | awk '{ printf "%.5f,%s\n", NR / 48000, $1 }' >"$workdir/planted.csv"
+    # As the ring holds it: pairs, of which one capsule has sound.
+    sox "$workdir/known.wav" -t raw "$workdir/planted.memory" remix 1 0
     od -An -v -w16 -tx1 "$workdir/known.f32" | sed 's/ /\\x/g; s/.*/write(7, "&", 16) = 16/' >"$workdir/planted.strace"
     # Pictures are written to the display, so a small display keeps the trace small.
     start small Xvfb -displayfd 1 -screen 0 160x90x24 -nolisten tcp
@@ -352,6 +355,7 @@ privacy() {
     DISPLAY=$address within 30 xdotool get_desktop
     cat >"$workdir/traced" <<TRACED
 #!/bin/sh
+ulimit -c unlimited
 exec strace -f --seccomp-bpf -qq -s 1048576 -xx -o $workdir/kiosk.strace \
     -e trace=write,pwrite64,writev,pwritev,pwritev2,sendto,sendmsg,sendmmsg $kiosk_soffio "\$@"
 TRACED
@@ -360,15 +364,22 @@ TRACED
     # The kiosk runs in a folder of its own, since other environments may write into out/.
     mkdir "$workdir/privacy.folder"
     cd "$workdir/privacy.folder"
-    DISPLAY=$address soffio=$workdir/traced start_kiosk privacy --config "$root/kiosk-config/kiosk.toml" --no-attract --record "$workdir/privacy.jsonl" --for 16
+    DISPLAY=$address soffio=$workdir/traced start_kiosk privacy --config "$root/kiosk-config/kiosk.toml" --no-attract --record "$workdir/privacy.jsonl" --for 20
     cd "$OLDPWD"
     within 30 grep -q 'supervisor: microphone: ' "$workdir/privacy.err"
     sleep 2
     before_microphone "$workdir/known.wav"
     pid=$(descendants "$kiosk" | while read -r id; do [ "$(readlink "/proc/$id/exe")" != "$kiosk_soffio" ] || echo "$id"; done | tail -1)
+    # The kiosk stands still while it is read. A read-only page holds no sample.
+    kill -STOP "$pid"
+    grep 'rw-p' "/proc/$pid/maps" | while IFS=' -' read -r from to _; do
+        dd if="/proc/$pid/mem" bs=1M iflag=skip_bytes,count_bytes,fullblock skip=$((0x$from)) count=$((0x$to - 0x$from)) 2>/dev/null || true
+    done >"$workdir/kiosk.memory"
     grep 'rw-s' "/proc/$pid/maps" | while IFS=' -' read -r from to _; do
         dd if="/proc/$pid/mem" bs=4096 iflag=skip_bytes,count_bytes skip=$((0x$from)) count=$((0x$to - 0x$from)) 2>/dev/null || true
     done >"$workdir/kiosk.mapped"
+    kill -CONT "$pid"
+    cores=$(awk '/^Max core file size/ { print $5 "," $6 }' "/proc/$pid/limits")
     end_kiosk privacy
     # Copy the files first, since shared memory of other environments comes and goes.
     mkdir "$workdir/left"
@@ -379,10 +390,11 @@ TRACED
     local writes
     writes=$(grep -c . "$workdir/kiosk.strace")
     planted=$("$correlate" "$workdir/known.f32" "$workdir"/planted.* | grep -c FOUND || true)
-    "$correlate" "$workdir/known.f32" "$workdir/kiosk.strace" "$workdir/kiosk.mapped" "$workdir/privacy.err" "$workdir/privacy.jsonl" "${left[@]}" \
+    "$correlate" "$workdir/known.f32" "$workdir/kiosk.strace" "$workdir/kiosk.mapped" "$workdir/kiosk.memory" "$workdir/privacy.err" "$workdir/privacy.jsonl" "${left[@]}" \
         >"$workdir/privacy.correlate" || found=1
-    bar "privacy" "$found == 0 && $planted == 3 && $writes > 1000" \
-        "$planted of 3 planted copies found; $writes writes and sends, ${#left[@]} files: at most $(awk '$2 > m { m = $2 } END { print m }' "$workdir/privacy.correlate")"
+    bar "privacy" "$found == 0 && $planted == 4 && $writes > 1000 && $(stat -c %s "$workdir/kiosk.memory") > 10000000" \
+        "$planted of 4 planted copies found; $writes writes and sends, $(($(stat -c %s "$workdir/kiosk.memory") >> 20)) MiB of memory, ${#left[@]} files: at most $(awk '$2 > m { m = $2 } END { print m }' "$workdir/privacy.correlate")"
+    bar "no core dump" "\"${cores:-}\" == \"0,0\"" "limits of a core file: ${cores:-unknown} bytes"
 }
 
 # ---- the microphone is unplugged and plugged in again ten times -----------------------------------------------------

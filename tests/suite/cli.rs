@@ -632,7 +632,7 @@ fn a_scene_that_is_none_is_refused() {
 #[test]
 fn a_pin_becomes_the_line_that_the_configuration_takes() {
     let desk = Desk::new();
-    desk.soffio(&["pin"]).refused(1, &["4 to 12 digits"]);
+    desk.soffio(&["pin"]).refused(1, &["6 to 12 digits"]);
     desk.write("digits", "271828\n");
     let digits = std::fs::File::open(desk.path("digits")).expect("written");
     let output = Command::new(env!("CARGO_BIN_EXE_soffio")).arg("pin").stdin(digits).output().expect("it starts");

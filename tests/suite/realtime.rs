@@ -234,8 +234,8 @@ mod callback {
             let mut heard = MicrophoneSamples::default();
             assert_eq!(capture.read(&mut heard), 1000);
             assert_eq!(capture.capsules(), 1 + usize::from(second.is_some()), "channels {channels:?}");
-            assert_eq!(heard.samples, [first; 1000], "channels {channels:?}");
-            assert_eq!(heard.second, second.map_or(vec![], |sample| vec![sample; 1000]), "channels {channels:?}");
+            assert_eq!(*heard.samples, [first; 1000], "channels {channels:?}");
+            assert_eq!(*heard.second, second.map_or(vec![], |sample| vec![sample; 1000]), "channels {channels:?}");
         }
     }
 

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
+use super::setup;
 use soffio_config::{Config, LoadedConfig, OTHERS};
 use soffio_exhibit as exhibit;
 
@@ -34,7 +35,9 @@ pub struct Args {
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
-    let loaded = Config::load(args.config.as_deref());
+    #[cfg(feature = "kiosk")]
+    soffio_devices::protection::forbid_core_dumps().map_err(Failure::device)?;
+    let loaded = Config::load(args.config.as_deref()).map(setup::with_staff_overrides);
     let mut findings = vec![match &loaded {
         Ok(LoadedConfig { file: None, .. }) => Finding::new("configuration", Health::Ok, "built in; no file found", ""),
         Ok(loaded @ LoadedConfig { file: Some(file), .. }) => {
@@ -49,6 +52,13 @@ pub fn run(args: Args) -> Outcome {
         }
         Err(error) => Finding::new("configuration", Health::Bad, error.to_string(), "correct the lines named here"),
     }];
+    if let Ok(LoadedConfig { staff: Some(staff), .. }) = &loaded {
+        let (health, remedy) = match &staff.problem {
+            None => (Health::Ok, ""),
+            Some(_) => (Health::Warn, "correct that file or delete it; until then the configuration holds alone"),
+        };
+        findings.push(Finding::new("staff settings", health, staff.summary(), remedy));
+    }
     let config = loaded.map(|loaded| loaded.config).unwrap_or_default();
     findings.push(pin(&config));
     findings.extend(exhibits(&config));

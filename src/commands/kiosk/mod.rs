@@ -12,9 +12,11 @@ use tracing_subscriber::util::SubscriberInitExt;
 use super::arguments::SolverArg;
 use super::failure::{Failure, Outcome};
 use super::setup;
-use soffio_config::{Config, FILE, LoadedConfig};
+use soffio_config::{Config, FILE, LoadedConfig, StaffOverrides};
+use soffio_devices::protection::forbid_core_dumps;
 use soffio_exhibit::Exhibit;
 use soffio_kiosk::fleet::Fleet;
+use soffio_kiosk::fleet::persisted;
 use soffio_kiosk::fleet::persisted_spread::PersistedSpread;
 use soffio_kiosk::live::{Options, Report};
 use soffio_kiosk::staff::log::Log;
@@ -86,24 +88,34 @@ pub struct Args {
 pub fn run(args: Args) -> Outcome {
     let log = Log::default();
     let _guard = log_to_stderr(&log);
+    forbid_core_dumps().unwrap_or_else(|error| tracing::error!("{error}"));
     let (loaded, problem) = match Config::load(args.config.as_deref()) {
         Ok(loaded) => (loaded, None),
         Err(error) => {
             let config = supervised::config_in_need(&error).ok_or_else(|| Failure::input(&error))?;
-            let loaded = LoadedConfig { config, file: Some(error.file.clone()), warnings: Vec::new() };
-            (loaded, Some(error.to_string()))
+            (
+                LoadedConfig { config, file: Some(error.file.clone()), ..LoadedConfig::default() },
+                Some(error.to_string()),
+            )
         }
     };
-    let warnings: Vec<String> = loaded.warning_texts().collect();
+    let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract, safe: false };
+    let state = persisted::folder(&overrides.apply(loaded.config.clone()));
+    let loaded = match &state {
+        Some(folder) => loaded.with_staff_overrides(folder),
+        None => loaded,
+    };
+    let warnings: Vec<String> =
+        loaded.warning_texts().chain(loaded.staff.iter().map(StaffOverrides::summary)).collect();
     warnings.iter().for_each(|warning| tracing::warn!("{warning}"));
     let LoadedConfig { config, file, .. } = loaded;
     match &file {
         Some(file) => tracing::info!("configuration: {}", file.display()),
         None => tracing::info!("configuration: built in"),
     }
-    let overrides = Overrides { windowed: args.windowed, no_attract: args.no_attract, safe: false };
     let places = source(&config, args.exhibit.as_deref())?;
-    let mut begun = supervised::begin(&overrides.apply(config.clone()), catalog::folders(&places), args.safe);
+    let begun = supervised::begin(state.clone(), catalog::folders(&places), args.safe);
+    let mut begun = begun.map_err(Failure::device)?;
     if let Some(file) = file.as_ref().filter(|_| problem.is_none()) {
         begun.store.save_good_config(file);
     }
@@ -135,7 +147,7 @@ pub fn run(args: Args) -> Outcome {
 
     let fleet = Fleet::start(begun.store, begun.persisted, begun.safe, &config);
     let (lose_device_at, shaders) = (args.lose_device_at, args.shaders.clone());
-    let launch = Launch { config, overrides, file, problem, warnings, log, fleet, lose_device_at, shaders };
+    let launch = Launch { config, overrides, file, state, problem, warnings, log, fleet, lose_device_at, shaders };
     match window::run(launch, &places, options, &stop) {
         Ok(Ended::Done(report)) => summarize(&report, args.duration.is_some()),
         Ok(Ended::Interrupted) => Err(Failure { code: 130, message: String::new() }),

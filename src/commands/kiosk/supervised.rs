@@ -7,7 +7,8 @@ use std::time::SystemTime;
 use soffio_authoring::template::Template;
 use soffio_config::{Config, ConfigError};
 use soffio_exhibit::{self as exhibit, Exhibit};
-use soffio_kiosk::fleet::persisted::{EXHIBIT_AFTER, PersistedState, StateStore, folder, last_good};
+use soffio_kiosk::fleet::instance::InstanceLock;
+use soffio_kiosk::fleet::persisted::{EXHIBIT_AFTER, PersistedState, StateStore, last_good, make};
 use soffio_kiosk::venue::catalog::id;
 
 /// Number of crashes in a row within a minute of their start; set by the launcher from the second start on.
@@ -43,11 +44,22 @@ pub struct Begun {
     pub shows_built_in: bool,
     /// Folders of the exhibits that are not set aside; all of them if none is left.
     folders: Vec<PathBuf>,
+    /// No second kiosk uses the folder of the state.
+    _lock: Option<InstanceLock>,
 }
 
-/// Begins a run: counts it, and logs a crash of the one before. `folders` are those of all exhibits, in order.
-pub fn begin(config: &Config, mut folders: Vec<PathBuf>, asked_safe: bool) -> Begun {
-    let (mut store, mut persisted) = StateStore::open(folder(config));
+/// Begins a run with its state in the folder `state`: counts it, and logs a crash of the one before. `folders` are those of all exhibits, in
+/// order.
+///
+/// # Errors
+/// Another kiosk is running with the same state.
+pub fn begin(state: Option<PathBuf>, mut folders: Vec<PathBuf>, asked_safe: bool) -> Result<Begun, String> {
+    // A folder that cannot be made is reported when it is opened.
+    let lock = match state.as_deref().filter(|state| make(state).is_ok()) {
+        Some(state) => InstanceLock::take(state)?,
+        None => None,
+    };
+    let (mut store, mut persisted) = StateStore::open(state);
     let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).map_or(0, |since| since.as_secs() as i64);
     let died = persisted.begin(store.load_marker().take(), now);
     // Where no state is kept, the launcher counts.
@@ -65,7 +77,8 @@ pub fn begin(config: &Config, mut folders: Vec<PathBuf>, asked_safe: bool) -> Be
     }
     let safe = asked_safe || persisted.wants_safe_mode(!left.is_empty());
     let shows_built_in = asked_safe || safe && left.is_empty();
-    Begun { store, safe, shows_built_in, persisted, folders: if left.is_empty() { folders } else { left } }
+    let folders = if left.is_empty() { folders } else { left };
+    Ok(Begun { store, safe, shows_built_in, persisted, folders, _lock: lock })
 }
 
 impl Begun {

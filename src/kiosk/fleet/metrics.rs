@@ -11,6 +11,7 @@ use crate::fleet::writer::Writer;
 use crate::live::LiveState;
 use crate::venue::self_test::Verdict;
 use soffio_devices::audio::DeviceState;
+use soffio_offline::atomic_file::Readers;
 use soffio_simulation::MotionMode;
 use soffio_sound::BANDS;
 
@@ -26,7 +27,10 @@ pub struct Metrics {
 impl Metrics {
     /// Writes to this file; nowhere if the path is empty.
     pub fn start(path: PathBuf) -> Self {
-        Self { writer: (!path.as_os_str().is_empty()).then(|| Writer::start("metrics", path)), written: None }
+        Self {
+            writer: (!path.as_os_str().is_empty()).then(|| Writer::start("metrics", path, Readers::Everyone)),
+            written: None,
+        }
     }
 
     /// Writes the file when it is due; `text` is called only then.

@@ -2,6 +2,7 @@
 //!
 //! It observes from the window's side and changes nothing that a visitor sees. Commands of a broker are handed to the window.
 
+pub mod instance;
 pub mod metrics;
 pub(crate) mod mqtt;
 pub(crate) mod orders;

@@ -14,12 +14,13 @@ use serde::{Deserialize, Serialize};
 use crate::fleet::persisted_spread::PersistedSpread;
 use crate::fleet::quarantine::{LoadMarker, Quarantine};
 use crate::fleet::visits::Histogram;
-use crate::fleet::writer::{Writer, write};
+use crate::fleet::writer::Writer;
 use crate::step::breaths::BreathSource;
 use crate::venue::loudness::NightBy;
 use crate::venue::self_test::SelfTestHistory;
 use crate::visitor::breath_time::BreathTime;
 use soffio_config::Config;
+use soffio_offline::atomic_file::{Readers, replace};
 
 /// Age of a run from which a crash does not count as one of the start.
 pub const SETTLED: Duration = Duration::from_secs(60);
@@ -178,7 +179,14 @@ impl StateStore {
                 PersistedState::default()
             }
         };
-        (Self { writer: Some(Writer::start("state", file)), folder: Some(folder), ..Self::default() }, state)
+        (
+            Self {
+                writer: Some(Writer::start("state", file, Readers::Owner)),
+                folder: Some(folder),
+                ..Self::default()
+            },
+            state,
+        )
     }
 
     /// What distinguishes this kiosk from others on the same machine: its folder, or its process where nothing is kept.
@@ -200,7 +208,7 @@ impl StateStore {
     /// Writes the begin of a run at once, before it can crash.
     pub fn begin(&mut self, state: &PersistedState) {
         let Some(folder) = &self.folder else { return };
-        match write(&folder.join(FILE), &text(state)) {
+        match replace(&folder.join(FILE), text(state).as_bytes(), Readers::Owner) {
             Ok(()) => self.last = state.clone(),
             Err(error) => tracing::warn!("state: {error}. This start is not counted."),
         }
@@ -226,7 +234,9 @@ impl StateStore {
     /// Copies a valid configuration, for a start at which the file itself is broken.
     pub fn save_good_config(&self, file: &Path) {
         let Some(folder) = &self.folder else { return };
-        let copied = std::fs::read_to_string(file).and_then(|text| write(&folder.join(LAST_GOOD), &text));
+        // It may hold a password.
+        let to = folder.join(LAST_GOOD);
+        let copied = std::fs::read(file).and_then(|text| replace(&to, &text, Readers::Owner));
         if let Err(error) = copied {
             tracing::warn!("the valid configuration cannot be copied: {error}");
         }
@@ -262,7 +272,10 @@ fn text(state: &PersistedState) -> String {
 }
 
 /// Creates a folder that only its owner can read: a configuration may hold a password.
-fn make(folder: &Path) -> std::io::Result<()> {
+///
+/// # Errors
+/// The system's reason.
+pub fn make(folder: &Path) -> std::io::Result<()> {
     let mut builder = std::fs::DirBuilder::new();
     builder.recursive(true);
     #[cfg(unix)]

@@ -1,12 +1,11 @@
 //! Rewrites a file as a whole, again and again, on a thread of its own: a slow or full disk delays nothing, and is logged
 //! once.
 
-use std::io::{self, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use soffio_offline::atomic_file::AtomicFile;
+use soffio_offline::atomic_file::{Readers, replace};
 
 /// Writer of one file.
 #[derive(Debug)]
@@ -16,14 +15,14 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// For the file at `path`; `name` is its name in the log.
-    pub fn start(name: &'static str, path: PathBuf) -> Self {
+    /// For the file at `path`, which these readers may read; `name` is its name in the log.
+    pub fn start(name: &'static str, path: PathBuf, readers: Readers) -> Self {
         // At most one text waits: later ones would be outdated when a slow disk is ready.
         let (to, from) = sync_channel::<String>(1);
         let write = move || {
             let mut failed = false;
             for text in from {
-                let result = write(&path, &text);
+                let result = replace(&path, text.as_bytes(), readers);
                 match &result {
                     Ok(()) if failed => tracing::info!("{name}: {} is written again", path.display()),
                     // Logged once for all failures in a row.
@@ -57,16 +56,4 @@ impl Writer {
             let _ = thread.join();
         }
     }
-}
-
-/// Writes a file that survives a loss of power.
-///
-/// # Errors
-/// The file cannot be written; the old one stays.
-pub fn write(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = AtomicFile::create(path)?;
-    file.write_all(text.as_bytes())?;
-    file.flush()?;
-    file.reopen()?.sync_all()?;
-    file.finish()
 }

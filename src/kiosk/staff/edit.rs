@@ -1,12 +1,11 @@
 //! Edits numbers and lists in a curator's files in place: comments, order and units stay.
 
 use std::collections::VecDeque;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
 
-use soffio_offline::atomic_file::AtomicFile;
+use soffio_offline::atomic_file::{Readers, replace as replace_file};
 
 /// Tables of a sidecar whose numbers are no parameters of the exhibit: texts and the attract script.
 const NOT_OFFERED: [&str; 3] = ["label", "attract", "credit"];
@@ -254,9 +253,33 @@ impl Changes {
     /// # Errors
     /// The file cannot be read, changed or written; the message names it.
     pub fn make(&mut self, file: &Path, change: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
-        let says = |why: String| format!("{}: {why}", file.display());
-        let before = std::fs::read_to_string(file).map_err(|error| says(error.to_string()))?;
-        let after = change(&before).map_err(says)?;
+        let before = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+        self.replace(file, before, change)
+    }
+
+    /// As [`Self::make`], and makes a missing file from an empty text. Undone, it is empty.
+    ///
+    /// # Errors
+    /// The file cannot be read, changed or written; the message names it.
+    pub fn make_or_create(
+        &mut self,
+        file: &Path,
+        change: impl Fn(&str) -> Result<String, String>,
+    ) -> Result<(), String> {
+        let before = match std::fs::read_to_string(file) {
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
+            read => read.map_err(|error| format!("{}: {error}", file.display()))?,
+        };
+        self.replace(file, before, change)
+    }
+
+    fn replace(
+        &mut self,
+        file: &Path,
+        before: String,
+        change: impl Fn(&str) -> Result<String, String>,
+    ) -> Result<(), String> {
+        let after = change(&before).map_err(|why| format!("{}: {why}", file.display()))?;
         if after != before {
             write(file, &after)?;
             self.done.push_back((file.to_path_buf(), before, after));
@@ -287,6 +310,5 @@ impl Changes {
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {
-    let mut file = AtomicFile::create(path).map_err(|error| error.to_string())?;
-    file.write_all(text.as_bytes()).and_then(|()| file.finish()).map_err(|error| error.to_string())
+    replace_file(path, text.as_bytes(), Readers::Owner).map_err(|error| error.to_string())
 }

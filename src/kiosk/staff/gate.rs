@@ -1,11 +1,12 @@
 //! PIN gate of the staff panel. The PIN is checked on a thread of its own, so that no frame waits for its hash.
 //!
-//! After the n-th wrong PIN in a row no other is accepted for 2ⁿ s, at most [`LONGEST_S`]: trying all PINs of four digits takes
-//! four months. The count is kept while the panel is closed and when the configuration is reloaded; a right PIN resets it.
+//! After the n-th wrong PIN in a row no other is accepted for 2ⁿ s, at most [`LONGEST_S`]: trying all PINs of six digits takes
+//! thirty years. The count is kept while the panel is closed and when the configuration is reloaded; a right PIN resets it.
 
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 
-use soffio_config::{DIGITS, Pin};
+use crate::visitor::input::Request;
+use soffio_config::{DIGITS, Pin, Staff};
 
 /// Longest pause after a wrong PIN, s.
 pub const LONGEST_S: f64 = 1024.0;
@@ -40,6 +41,16 @@ impl Gate {
     /// Was the right PIN entered since the gate was shut?
     pub fn is_open(&self) -> bool {
         self.open
+    }
+
+    /// Does a request of a key or button pass? With a PIN set, the staff's chords pass only while the gate is open, except the
+    /// panel's own, and mute where the site frees it.
+    pub fn admits(&self, request: Request, staff: &Staff) -> bool {
+        match request {
+            Request::Mute if staff.mute_without_pin => true,
+            Request::Mute | Request::Night | Request::Open => !self.has_pin() || self.is_open(),
+            _ => true,
+        }
     }
 
     /// Shuts the gate: the PIN is needed again.

@@ -10,8 +10,8 @@ use crate::staff::gate::Gate;
 use crate::staff::pages::style::{BAD, width};
 use crate::staff::pages::{Page, bodies, exhibits, keypad, log, microphone, parameters, sound, status, test, wind};
 use crate::staff::panel_input::PanelInput;
-use crate::visitor::input::{Phase, Signal};
-use soffio_config::Config;
+use crate::visitor::input::{Phase, Request, Signal};
+use soffio_config::{Config, Staff};
 use soffio_simulation::InspectionScope;
 
 /// Time for which a message is shown in the corner of a window on a desk, s.
@@ -32,6 +32,8 @@ pub struct StaffPanel {
     share: f32,
     /// Count of inputs, and the time of the last one, s.
     touched: (u64, f64),
+    /// Action of a chord that waits for the PIN.
+    waiting: Option<StaffAction>,
     toast: Option<(f64, String)>,
     /// Result of the last change.
     said: Option<String>,
@@ -53,8 +55,28 @@ impl StaffPanel {
         self.open = open;
     }
 
+    /// Takes a request of a key or button. Returns it where it may be carried out at once. A chord of staff that needs the PIN opens
+    /// the panel instead; it is carried out when the right PIN is entered.
+    pub fn admit(&mut self, request: Request, staff: &Staff) -> Option<Request> {
+        self.gate.set(&staff.pin);
+        if self.gate.admits(request, staff) {
+            return Some(request);
+        }
+        if !self.open {
+            self.toggle();
+        }
+        self.waiting = match request {
+            Request::Mute => Some(StaffAction::Mute),
+            Request::Night => Some(StaffAction::Night),
+            Request::Open => Some(StaffAction::Open),
+            _ => None,
+        };
+        None
+    }
+
     fn close(&mut self) {
         self.open = false;
+        self.waiting = None;
         self.touched = (0, f64::NEG_INFINITY);
         self.gate.shut();
         self.said = None;
@@ -128,6 +150,9 @@ impl StaffPanel {
             return actions;
         }
         self.gate.poll(time);
+        if self.gate.is_open() {
+            actions.extend(self.waiting.take());
+        }
         // A full-screen test picture covers the panel; a press shows the next one.
         if self.test.covers() {
             self.test.paint(ui.ctx(), input.texts);

@@ -35,7 +35,8 @@ pub struct PanelInput<'a> {
     pub vitals: WindowStats<'a>,
     /// The site's configuration.
     pub site: &'a Config,
-    /// File of the configuration; `None` for the built-in one.
+    /// File that the panel's settings are saved in: that of staff in the folder of the state, or without one the configuration itself;
+    /// `None` for the built-in configuration.
     pub file: Option<&'a Path>,
     /// Problems of the configuration: mistakes, old names, and keys that wait for a restart.
     pub config_problems: &'a [String],

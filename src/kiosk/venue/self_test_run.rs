@@ -1,10 +1,11 @@
 //! A run of the audio self-test: the devices open, the sweep is played, the microphone records it. The samples stay in
-//! memory for a few seconds, and are dropped with the outcome.
+//! memory for a few seconds, and are overwritten with the outcome.
 
 use std::sync::Arc;
 
 use crate::venue::sweep::{RECORDED_S, SweepResponse, measure_response, sweep};
 use soffio_devices::audio::{AudioStatus, DeviceState, Utterance};
+use zeroize::Zeroizing;
 
 /// Longest wait for the devices to open, s.
 const OPENING_S: f64 = 8.0;
@@ -12,6 +13,8 @@ const OPENING_S: f64 = 8.0;
 const SETTLING_S: f64 = 1.0;
 /// Longest wait for the whole recording, s.
 const PATIENCE_S: f64 = RECORDED_S + 2.0;
+/// Most samples of one read, s: the ring of the microphone.
+const LONGEST_READ_S: f64 = 2.0;
 
 /// Outcome of a run: the response, or the reason why there is none.
 pub type SelfTestOutcome = Result<SweepResponse, String>;
@@ -38,7 +41,7 @@ enum SelfTestPhase {
     Recording {
         since: f64,
         rate: u32,
-        samples: Vec<f32>,
+        samples: Zeroizing<Vec<f32>>,
     },
 }
 
@@ -70,7 +73,9 @@ impl SelfTestRun {
                         return None;
                     }
                     let samples: Arc<[f32]> = sweep(*sample_rate).into();
-                    self.0 = SelfTestPhase::Recording { since: time, rate, samples: Vec::new() };
+                    let most = ((RECORDED_S + LONGEST_READ_S) * f64::from(rate)) as usize;
+                    let recording = Zeroizing::new(Vec::with_capacity(most));
+                    self.0 = SelfTestPhase::Recording { since: time, rate, samples: recording };
                     Some(SelfTestAction::PlaySweep(Utterance { samples, sample_rate: *sample_rate }))
                 }
                 (input, output, _) if time - *since >= OPENING_S => {
@@ -85,7 +90,9 @@ impl SelfTestRun {
                 _ => None,
             },
             SelfTestPhase::Recording { since, rate, samples } => {
-                samples.extend_from_slice(recorded.0);
+                // A buffer that grew would leave a copy behind.
+                let left = samples.capacity() - samples.len();
+                samples.extend_from_slice(&recorded.0[..recorded.0.len().min(left)]);
                 let enough = samples.len() as f64 >= RECORDED_S * f64::from(*rate);
                 if enough {
                     let came = measure_response(samples, *rate);

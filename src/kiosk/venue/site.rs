@@ -9,7 +9,7 @@ use notify_debouncer_full::notify::{Error, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
 use crate::venue::catalog::{QUIET, is_change};
-use soffio_config::{AudioSettings, Config, ControllerSettings, Hours, LoadedConfig};
+use soffio_config::{AudioSettings, Config, ControllerSettings, Hours, LoadedConfig, STAFF_FILE};
 use soffio_exhibit as exhibit;
 use soffio_simulation::Settings;
 use soffio_sound::{ReverbSpec, VolumeSettings};
@@ -88,33 +88,46 @@ pub enum ConfigEvent {
     Rejected(String),
 }
 
-/// Watches a configuration file for as long as it lives.
+/// Watches a configuration file, and the settings of staff over it, for as long as it lives.
 pub struct ConfigWatcher {
     /// The file.
     pub path: PathBuf,
+    /// The file with the settings of staff; `None` without a folder for the state.
+    staff: Option<PathBuf>,
     events: Receiver<ConfigEvent>,
-    /// Ends the watching when dropped.
-    _watcher: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
+    /// End the watching when dropped.
+    _watchers: Vec<Debouncer<RecommendedWatcher, RecommendedCache>>,
 }
 
 impl ConfigWatcher {
-    /// Watches a file. Where that is impossible the reason is logged.
-    pub fn watch(path: &Path) -> Self {
+    /// Watches a file, and the settings of staff in the folder of the state. Where that is impossible the reason is logged.
+    pub fn watch(path: &Path, state: Option<&Path>) -> Self {
         let (sender, events) = channel();
-        let file = path.to_path_buf();
-        let read = move || {
-            let event = match Config::load(Some(&file)) {
-                Ok(loaded) => ConfigEvent::Loaded(Box::new(loaded)),
-                Err(error) => ConfigEvent::Rejected(error.to_string()),
+        let staff = state.map(|folder| folder.join(STAFF_FILE));
+        let files = [Some(path.to_path_buf()), staff.clone()];
+        let watchers = files.into_iter().flatten().filter_map(|watched| {
+            let (file, state, sender) = (path.to_path_buf(), state.map(Path::to_path_buf), sender.clone());
+            let read = move || {
+                let event = match Config::load(Some(&file)) {
+                    Ok(loaded) => ConfigEvent::Loaded(Box::new(match &state {
+                        Some(folder) => loaded.with_staff_overrides(folder),
+                        None => loaded,
+                    })),
+                    Err(error) => ConfigEvent::Rejected(error.to_string()),
+                };
+                // A closed receiver is about to drop the watcher.
+                let _ = sender.send(event);
             };
-            // A closed receiver is about to drop the watcher.
-            let _ = sender.send(event);
-        };
-        let watcher = watcher(path, read);
-        if let Err(error) = &watcher {
-            tracing::warn!("{} is not watched for changes: {error}", path.display());
-        }
-        Self { path: path.to_path_buf(), events, _watcher: watcher.ok() }
+            let unwatched = |error: &Error| tracing::warn!("{} is not watched for changes: {error}", watched.display());
+            watcher(&watched, read).inspect_err(unwatched).ok()
+        });
+        let watchers = watchers.collect();
+        Self { path: path.to_path_buf(), staff, events, _watchers: watchers }
+    }
+
+    /// The file in which the staff panel saves settings: the configuration itself where no folder for the state is.
+    pub fn saved_in(&self) -> &Path {
+        self.staff.as_deref().unwrap_or(&self.path)
     }
 
     /// The next event, the oldest first; `None` where there is none.

@@ -10,8 +10,11 @@
 //! with a window w about the first arrival, which excludes the delay of the devices and the late reverberation. Harmonic
 //! distortion lies before the arrival, the second harmonic by T ln 2/L. Between the two there is only noise; the same window
 //! there measures the noise in each level.
+//!
+//! The microphone may record voices too. Everything from which they could be restored is overwritten after its use.
 
 use soffio_fourier::{Complex, RealToComplex, real_forward, real_inverse};
+use zeroize::{Zeroize, Zeroizing};
 
 use soffio_math::{PI, amplitude_to_db, cos, exp, ln, sin};
 use soffio_sound::BANDS;
@@ -84,8 +87,7 @@ pub fn measure_response(recorded: &[f32], rate: u32) -> SweepResponse {
     let window = samples(WINDOW_S.1);
     let octaves = |before: usize| {
         let from = first + 2 * impulse_response.len() - samples(WINDOW_S.0) - before;
-        let cut: Vec<f64> = (0..window).map(|i| impulse_response[(from + i) % impulse_response.len()]).collect();
-        powers(cut, rate)
+        powers((0..window).map(|i| impulse_response[(from + i) % impulse_response.len()]), rate)
     };
     let there = octaves(0);
     let mut noise = [0.0; OCTAVES];
@@ -104,24 +106,27 @@ fn power_to_db(power: f64) -> f64 {
 }
 
 /// The impulse response between loudspeaker and microphone, circular.
-fn impulse_response(recorded: &[f32], rate: u32) -> Vec<f64> {
+fn impulse_response(recorded: &[f32], rate: u32) -> Zeroizing<Vec<f64>> {
     let sent = sweep(rate);
     let length = (sent.len() + recorded.len()).next_power_of_two();
     let forward = real_forward(length);
     let (x, y) = (spectrum(&*forward, doubles(&sent)), spectrum(&*forward, doubles(recorded)));
     let damping = DAMPING * x.iter().map(Complex::norm_sqr).fold(0.0, f64::max);
-    let mut ratio: Vec<_> = x.iter().zip(&y).map(|(x, y)| y * x.conj() / (x.norm_sqr() + damping)).collect();
+    let mut ratio = y;
+    ratio.0.iter_mut().zip(x.iter()).for_each(|(y, x)| *y = *y * x.conj() / (x.norm_sqr() + damping));
     // The spectrum of a real signal is real here, rounding aside.
-    ratio[0].im = 0.0;
-    ratio[length / 2].im = 0.0;
-    let mut impulse_response = vec![0.0; length];
-    real_inverse(length).process(&mut ratio, &mut impulse_response).expect("lengths of one plan");
+    ratio.0[0].im = 0.0;
+    ratio.0[length / 2].im = 0.0;
+    let mut impulse_response = Zeroizing::new(vec![0.0; length]);
+    let back = real_inverse(length);
+    let mut scratch = Spectrum(back.make_scratch_vec());
+    back.process_with_scratch(&mut ratio.0, &mut impulse_response, &mut scratch.0).expect("lengths of one plan");
     impulse_response.iter_mut().for_each(|sample| *sample /= length as f64);
     impulse_response
 }
 
 /// Mean power of the bins of each octave; 0 where the rate has none.
-fn powers(cut: Vec<f64>, rate: u32) -> [f64; OCTAVES] {
+fn powers(cut: impl ExactSizeIterator<Item = f64>, rate: u32) -> [f64; OCTAVES] {
     let length = cut.len().next_power_of_two();
     let spectrum = spectrum(&*real_forward(length), cut);
     std::array::from_fn(|b| {
@@ -132,13 +137,35 @@ fn powers(cut: Vec<f64>, rate: u32) -> [f64; OCTAVES] {
     })
 }
 
-fn doubles(samples: &[f32]) -> Vec<f64> {
-    samples.iter().map(|sample| f64::from(*sample)).collect()
+fn doubles(samples: &[f32]) -> impl ExactSizeIterator<Item = f64> {
+    samples.iter().map(|sample| f64::from(*sample))
 }
 
-fn spectrum(forward: &dyn RealToComplex<f64>, mut samples: Vec<f64>) -> Vec<Complex<f64>> {
-    samples.resize(forward.len(), 0.0);
-    let mut out = forward.make_output_vec();
-    forward.process(&mut samples, &mut out).expect("lengths of one plan");
+/// A spectrum, or room for one, that is overwritten when it is dropped.
+struct Spectrum(Vec<Complex<f64>>);
+
+impl std::ops::Deref for Spectrum {
+    type Target = [Complex<f64>];
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl Drop for Spectrum {
+    fn drop(&mut self) {
+        for z in &mut self.0 {
+            z.re.zeroize();
+            z.im.zeroize();
+        }
+    }
+}
+
+/// Spectrum of samples, padded with zeros to the length of the transform.
+fn spectrum(forward: &dyn RealToComplex<f64>, samples: impl Iterator<Item = f64>) -> Spectrum {
+    let mut padded = Zeroizing::new(vec![0.0; forward.len()]);
+    padded.iter_mut().zip(samples).for_each(|(padded, sample)| *padded = sample);
+    let (mut out, mut scratch) = (Spectrum(forward.make_output_vec()), Spectrum(forward.make_scratch_vec()));
+    forward.process_with_scratch(&mut padded, &mut out.0, &mut scratch.0).expect("lengths of one plan");
     out
 }

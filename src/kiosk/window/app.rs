@@ -93,7 +93,7 @@ impl<'a> App<'a> {
         });
         let translations =
             if ground.fleet.is_safe() { Translations::default() } else { Translations::load(ground.file.as_deref()) };
-        let Launch { config, overrides, file, problem, warnings, log, fleet, lose_device_at, shaders } = ground;
+        let Launch { config, overrides, file, state, problem, warnings, log, fleet, lose_device_at, shaders } = ground;
         Self {
             exhibits: ExhibitSelection::new(places, &options.exhibit.folder, config.exhibits.hot_reload, &fleet),
             visit: VisitState::new(&config, fleet.persisted().breath_time.clone()),
@@ -101,7 +101,7 @@ impl<'a> App<'a> {
                 seed: options.site.settings.seed,
                 one: matches!(places, ExhibitSource::One(_)),
                 overrides,
-                file: file.as_deref().map(ConfigWatcher::watch),
+                file: file.as_deref().map(|file| ConfigWatcher::watch(file, state.as_deref())),
                 problems: problem.into_iter().collect(),
                 warnings,
                 config,
@@ -226,7 +226,7 @@ impl ApplicationHandler for App<'_> {
             }
         };
         self.stop_reading_on(&signal, request);
-        if let Some(request) = request {
+        if let Some(request) = request.and_then(|request| self.desk.panel.admit(request, &self.setup.config.staff)) {
             self.handle_request(events, request);
         }
         self.send_controls();

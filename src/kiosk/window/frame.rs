@@ -18,6 +18,7 @@ use crate::live::LiveState;
 use crate::pages::menu::tiles;
 use crate::pages::overlay::{BreathInput, Scene, SoundState};
 use crate::staff::{PanelInput, StaffAction, WindowStats};
+use crate::venue::site::ConfigWatcher;
 use crate::venue::state::VenueState;
 use soffio_config::Config;
 use soffio_exhibit::View;
@@ -143,7 +144,7 @@ impl App<'_> {
                 site: config,
                 config_problems: &self.setup.problems,
                 exhibit_problem: self.exhibits.problem.as_deref(),
-                file: self.setup.file.as_ref().map(|file| file.path.as_path()),
+                file: self.setup.file.as_ref().map(ConfigWatcher::saved_in),
                 exhibit_ids: &exhibit_ids,
                 venue: &self.venue,
                 persisted: self.fleet.persisted(),

@@ -16,6 +16,8 @@ pub struct Launch {
     pub overrides: Overrides,
     /// File of the configuration, which is watched; `None` for the built-in one.
     pub file: Option<PathBuf>,
+    /// Folder of the state, in which the settings of staff are; `None` without one.
+    pub state: Option<PathBuf>,
     /// Problems of that file, if the run uses the last valid configuration instead.
     pub problem: Option<String>,
     /// Old names in that file, each with its place and remedy.

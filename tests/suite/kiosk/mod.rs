@@ -14,6 +14,7 @@ mod captions;
 #[cfg(feature = "kiosk")]
 mod catalog;
 mod configuration;
+mod configuration_files;
 #[cfg(feature = "kiosk")]
 mod contrast;
 mod doctor;
@@ -34,6 +35,8 @@ mod glass;
 mod hearing_loop;
 #[cfg(feature = "kiosk")]
 mod idle_rendering;
+#[cfg(feature = "kiosk")]
+mod instance;
 #[cfg(feature = "kiosk")]
 mod instruments;
 mod modules;

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use soffio_config::Config;
 use soffio_exhibit as exhibit;
+use soffio_kiosk::staff::edit::{Changes, with_key};
 use soffio_kiosk::step::stage::Stage;
 use soffio_kiosk::venue::catalog::{Catalog, CatalogEntry, ExhibitSource};
 use soffio_kiosk::venue::site::{ConfigEvent, ConfigWatcher, Overrides, Site, waits_for_restart};
@@ -17,7 +18,7 @@ fn a_good_file_is_taken_over_and_a_broken_one_refused_with_its_diagnostics() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("kiosk.toml");
     std::fs::write(&file, "").expect("writable");
-    let site = ConfigWatcher::watch(&file);
+    let site = ConfigWatcher::watch(&file, None);
     std::fs::write(&file, "[visit]\nbreath = false\n[opening]\nhours = [\"Tue-Sun 10:00-18:00\"]\n").expect("writable");
     let Some(ConfigEvent::Loaded(loaded)) = site.wait(LONG) else { panic!("a good change is noticed") };
     assert!(!loaded.config.visit.breath && loaded.config.opening.hours.len() == 1);
@@ -36,6 +37,26 @@ fn a_good_file_is_taken_over_and_a_broken_one_refused_with_its_diagnostics() {
     let Some(ConfigEvent::Loaded(loaded)) = site.wait(LONG) else { panic!("a new file is noticed") };
     assert_eq!(loaded.config.breath.gain, 2.0);
     assert!(loaded.config.visit.breath, "what is not said any more is the default again");
+}
+
+#[test]
+fn settings_of_staff_are_taken_over_from_their_own_file_and_the_configuration_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, state) = (folder.path().join("kiosk.toml"), folder.path().join("state"));
+    std::fs::create_dir(&state).expect("writable");
+    std::fs::write(&file, "[breath]\ngain = 2.0\n").expect("writable");
+    let site = ConfigWatcher::watch(&file, Some(&state));
+    assert_eq!(site.saved_in(), state.join("overrides.toml"));
+    let mut changes = Changes::default();
+    let sensitivity = |text: &str| with_key(text, "breath", "sensitivity_db", -3.0);
+    changes.make_or_create(site.saved_in(), sensitivity).expect("writable");
+    let Some(ConfigEvent::Loaded(loaded)) = site.wait(LONG) else { panic!("a setting of staff is noticed") };
+    assert_eq!((loaded.config.breath.gain, loaded.config.breath.sensitivity_db), (2.0, -3.0));
+    assert!(loaded.staff.is_some_and(|staff| staff.summary().contains("breath.sensitivity_db")));
+    assert_eq!(std::fs::read_to_string(&file).expect("there"), "[breath]\ngain = 2.0\n");
+    changes.undo().expect("nobody else has changed it");
+    let Some(ConfigEvent::Loaded(loaded)) = site.wait(LONG) else { panic!("undone") };
+    assert_eq!((loaded.config.breath.sensitivity_db, loaded.staff), (0.0, None));
 }
 
 #[test]

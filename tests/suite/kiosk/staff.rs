@@ -16,7 +16,7 @@ use soffio_kiosk::staff::{Page, PanelInput, StaffAction, StaffPanel, WindowStats
 use soffio_kiosk::step::controls::Controls;
 use soffio_kiosk::step::stage::Stage;
 use soffio_kiosk::venue::state::VenueState;
-use soffio_kiosk::visitor::input::{Phase, Signal};
+use soffio_kiosk::visitor::input::{Phase, Request, Signal};
 use soffio_simulation::{InspectionScope, Settings};
 
 use super::pages::texts;
@@ -46,7 +46,7 @@ fn enter(gate: &mut Gate, digits: &str, time: f64) {
 #[test]
 fn the_right_pin_opens_a_wrong_one_waits_ever_longer_and_closing_changes_nothing_of_that() {
     let mut gate = Gate::default();
-    gate.set(&pin("2718"));
+    gate.set(&pin("271828"));
     let mut time = 0.0;
     for wrong in 1..=12 {
         enter(&mut gate, "1234", time);
@@ -55,23 +55,23 @@ fn the_right_pin_opens_a_wrong_one_waits_ever_longer_and_closing_changes_nothing
         assert_eq!(gate.pause(time), Some(pause), "try {wrong}");
         // Closing and opening the panel, or reading the same configuration again, shortens nothing.
         gate.shut();
-        gate.set(&pin("2718"));
-        enter(&mut gate, "2718", time + pause - 0.001);
+        gate.set(&pin("271828"));
+        enter(&mut gate, "271828", time + pause - 0.001);
         assert!(!gate.is_open() && gate.wrong() == wrong, "nothing is tried during the pause");
         gate.shut();
         time += pause;
         assert_eq!(gate.pause(time), None);
     }
-    enter(&mut gate, "2718", time);
+    enter(&mut gate, "271828", time);
     assert!(gate.is_open() && gate.wrong() == 0);
     gate.shut();
     assert!(!gate.is_open(), "the next one is asked again");
     enter(&mut gate, "1234", time);
     assert_eq!(gate.pause(time), Some(2.0), "a right PIN restarted the count");
     let other = {
-        enter(&mut gate, "2718", time + 2.0);
+        enter(&mut gate, "271828", time + 2.0);
         assert!(gate.is_open());
-        pin("3141")
+        pin("314159")
     };
     gate.set(&other);
     assert!(!gate.is_open(), "another PIN in the configuration shuts it");
@@ -343,16 +343,16 @@ fn with_a_pin_the_panel_asks_for_it_and_opens_by_keyboard_and_by_finger() {
     for by_finger in [false, true] {
         let mut staff = Before::new("pendulum");
         staff.on_desk = false;
-        staff.site.staff.pin = pin("2718");
+        staff.site.staff.pin = pin("271828");
         staff.look(Vec::new());
         assert!(!staff.says("joint error") && staff.says("PIN"), "{:?}", staff.said());
         assert_eq!(staff.staff.inspection(&staff.site), InspectionScope::Nothing);
         if by_finger {
-            for digit in ["2", "7", "1", "8", "OK"] {
+            for digit in ["2", "7", "1", "8", "2", "8", "OK"] {
                 staff.press(digit);
             }
         } else {
-            let digits = "2718".chars().map(|digit| Event::Text(digit.into())).collect();
+            let digits = "271828".chars().map(|digit| Event::Text(digit.into())).collect();
             staff.look(digits);
             let key = Key::Enter;
             let modifiers = Modifiers::NONE;
@@ -374,7 +374,7 @@ fn with_a_pin_the_panel_asks_for_it_and_opens_by_keyboard_and_by_finger() {
 #[test]
 fn digits_are_as_large_as_a_thumb() {
     let mut staff = Before::new("pendulum");
-    staff.site.staff.pin = pin("2718");
+    staff.site.staff.pin = pin("271828");
     staff.look(Vec::new());
     staff.look(Vec::new());
     let centres = ["1", "2", "4"].map(|digit| staff.find(digit));
@@ -544,4 +544,45 @@ fn a_press_on_the_panel_is_the_panels_and_one_beside_it_the_works() {
     }
     staff.staff.toggle();
     assert!(!press(&mut staff.staff, 0.9), "a closed panel takes nothing");
+}
+
+#[test]
+fn with_a_pin_a_chord_of_staff_waits_for_it_and_only_mute_can_be_freed() {
+    let mut staff = Before::new("pendulum");
+    staff.on_desk = false;
+    let chords =
+        [(Request::Mute, StaffAction::Mute), (Request::Night, StaffAction::Night), (Request::Open, StaffAction::Open)];
+    for (request, _) in &chords {
+        assert_eq!(staff.staff.admit(*request, &staff.site.staff), Some(*request), "no PIN is set");
+    }
+    staff.site.staff.pin = pin("271828");
+    for (request, action) in chords {
+        assert_eq!(staff.staff.admit(request, &staff.site.staff), None, "{request:?}");
+        assert!(staff.staff.is_open(), "it asks for the PIN");
+        assert_eq!(staff.look(Vec::new()), [], "{request:?} before the PIN");
+        let time = staff.time;
+        enter(staff.staff.gate(), "271828", time);
+        assert_eq!(staff.look(Vec::new()), [action], "{request:?} after it");
+        assert_eq!(staff.look(Vec::new()), [], "once");
+        assert_eq!(staff.staff.admit(request, &staff.site.staff), Some(request), "the gate is open");
+        staff.staff.toggle();
+    }
+    // Somebody who leaves the panel leaves the chord too.
+    assert_eq!(staff.staff.admit(Request::Open, &staff.site.staff), None);
+    staff.staff.toggle();
+    staff.staff.toggle();
+    let time = staff.time;
+    enter(staff.staff.gate(), "271828", time);
+    assert_eq!(staff.look(Vec::new()), []);
+    staff.staff.toggle();
+
+    staff.site.staff.mute_without_pin = true;
+    for (request, passes) in [(Request::Mute, true), (Request::Night, false), (Request::Open, false)] {
+        assert_eq!(staff.staff.admit(request, &staff.site.staff).is_some(), passes, "{request:?}");
+    }
+    // What visitors and the panel's own chord ask for always passes.
+    for request in [Request::ToggleStaff, Request::Louder(1), Request::Menu, Request::ToggleMicrophone, Request::Close]
+    {
+        assert_eq!(staff.staff.admit(request, &staff.site.staff), Some(request));
+    }
 }

@@ -151,15 +151,15 @@ fn two_capsules_of_a_device_are_the_run_of_a_recording_of_two_channels() {
 #[test]
 fn what_was_heard_is_shared_among_steps_without_a_gap() {
     let count = |n: u16| (0..n).map(f32::from).collect::<Vec<_>>();
-    let heard = MicrophoneSamples { samples: count(1003), second: count(1003), reference: count(1003) };
+    let heard = MicrophoneSamples { samples: count(1003).into(), second: count(1003).into(), reference: count(1003) };
     for n in [1, 2, 5, 7] {
         let shares: Vec<Microphone> = (0..n).map(|i| heard.share(i, n, RATE)).collect();
         let joined = |part: fn(&Microphone) -> Vec<f32>| shares.iter().flat_map(part).collect::<Vec<_>>();
-        assert_eq!(joined(|m| m.samples.to_vec()), heard.samples);
-        assert_eq!(joined(|m| m.second.expect("two capsules").to_vec()), heard.second);
+        assert_eq!(joined(|m| m.samples.to_vec()), *heard.samples);
+        assert_eq!(joined(|m| m.second.expect("two capsules").to_vec()), *heard.second);
         assert_eq!(joined(|m| m.reference.to_vec()), heard.reference);
     }
-    let one = MicrophoneSamples { second: Vec::new(), ..heard };
+    let one = MicrophoneSamples { second: Vec::new().into(), ..heard };
     assert!(one.share(0, 3, RATE).second.is_none());
 }
 

@@ -114,7 +114,6 @@ impl Thread {
         add_controllers(&mut controls, &self.controllers.reading(), self.site.controllers.stick_speed);
         lifts.into_iter().for_each(|lift| self.stage.lift(lift));
         commands.into_iter().for_each(|command| self.stage.command(command));
-        self.microphone.samples_read.clear();
         self.microphone.closed = controls.closed;
         if self_test && self.site.breath {
             self.microphone.begin_self_test();
@@ -140,6 +139,8 @@ impl Thread {
             }
             self.publisher.record_breaths(&self.stage, controls.strength);
         }
+        // Samples are kept no longer than the steps that need them.
+        self.microphone.samples_read.clear();
         self.publisher.record_time(before, due);
         self.playback.play_audition(audition, &self.stage);
         self.playback.send(&self.stage);

@@ -127,7 +127,7 @@ impl Exhibits {
 }
 
 fn save(file: &Path, list: &[String], changes: &mut Changes, texts: &UiStrings) -> String {
-    match changes.make(file, |text| with_list(text, "exhibits", "show", list)) {
+    match changes.make_or_create(file, |text| with_list(text, "exhibits", "show", list)) {
         Ok(()) => saved_in(texts, file),
         Err(error) => error,
     }

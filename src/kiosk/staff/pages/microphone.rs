@@ -164,7 +164,7 @@ impl Microphone {
             }
         }
         if let Some((value, file)) = save.zip(input.file) {
-            let made = changes.make(file, |text| with_key(text, "breath", "sensitivity_db", value));
+            let made = changes.make_or_create(file, |text| with_key(text, "breath", "sensitivity_db", value));
             *said = Some(made.err().unwrap_or_else(|| saved_in(texts, file)));
         }
     }

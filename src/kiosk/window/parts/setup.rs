@@ -2,7 +2,7 @@
 
 use crate::venue::site::{ConfigEvent, ConfigWatcher, Overrides, Site, waits_for_restart};
 use crate::visitor::input::Keys;
-use soffio_config::{Config, LoadedConfig};
+use soffio_config::{Config, LoadedConfig, StaffOverrides};
 
 /// Configuration of this run.
 pub(crate) struct Setup {
@@ -10,9 +10,9 @@ pub(crate) struct Setup {
     pub config: Config,
     /// Watcher of the configuration file; `None` without a file.
     pub file: Option<ConfigWatcher>,
-    /// Problems of the configuration for staff: mistakes, old names, and keys that wait for a restart.
+    /// What staff must know of the configuration: mistakes, old names, settings of the panel, and keys that wait for a restart.
     pub problems: Vec<String>,
-    /// Old names in the file at the start; [`Self::problems`] get them when the run begins.
+    /// Old names in the file and settings of the panel at the start; [`Self::problems`] get them when the run begins.
     pub warnings: Vec<String>,
     /// Options of the command line that take precedence over the file.
     pub overrides: Overrides,
@@ -52,6 +52,7 @@ impl Setup {
         self.problems.clear();
         self.problems.extend(standing);
         self.problems.extend(loaded.warning_texts());
+        self.problems.extend(loaded.staff.iter().map(StaffOverrides::summary));
         let mut config = self.overrides.apply(loaded.config);
         let waits = waits_for_restart(&self.config, &config);
         if !waits.is_empty() {
