@@ -8,7 +8,7 @@ use super::failure::{Failure, Outcome};
 use super::fix;
 use soffio_config::{Config, Problem};
 use soffio_exhibit::renamed::{self, FileKind};
-use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
+use soffio_exhibit::{self as exhibit, Budget, Diagnostic, Location, Report, codes, model, printable};
 #[cfg(feature = "kiosk")]
 use soffio_kiosk::pages::ui_strings;
 use soffio_offline::budget::{self, Findings};
@@ -58,12 +58,12 @@ pub fn run(args: Args) -> Outcome {
                 None => verdict,
             };
             eprint!("{}", report.to_terminal_text());
-            eprintln!("{path}: {verdict}");
+            eprintln!("{}: {verdict}", printable::line(&path));
         }
         all.absorb(report);
     }
     if args.json {
-        println!("{}", all.to_json());
+        println!("{}", printable::json(&all.to_json().to_string()));
     }
     if all.has_errors() { Err(Failure { code: 1, message: String::new() }) } else { Ok(()) }
 }
@@ -186,7 +186,8 @@ fn scene_report(file: &Path) -> Result<Report, Report> {
 }
 
 fn exhibit_report(folder: &Path, quick: bool) -> Result<(Report, Option<Findings>), Report> {
-    let exhibit = Arc::new(exhibit::load(folder)?);
+    let budget = Budget::timed(|| cpu_time::ThreadTime::now().as_duration());
+    let exhibit = Arc::new(exhibit::load_within(folder, &budget)?);
     let mut report = exhibit.warning_report();
     if quick {
         return Ok((report, None));

@@ -1,5 +1,6 @@
 //! Schema check: validates the sidecar against the format's JSON Schema and locates every violation.
 
+mod bounds;
 pub mod validate;
 
 use schemars::transform::RecursiveTransform;
@@ -40,6 +41,9 @@ pub fn check(source: &SidecarText) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for problem in validate::problems(&schema, &source.value) {
         explain(source, &problem, &mut found);
+    }
+    if found.is_empty() {
+        found = bounds::check(source, &schema);
     }
     found
 }

@@ -118,6 +118,11 @@ pub fn problems<'a>(root: &'a Value, value: &'a Value) -> Vec<Problem<'a>> {
     found
 }
 
+/// Does the value meet this part of a schema?
+pub fn fits(root: &Value, schema: &Value, value: &Value) -> bool {
+    Instance { root, value, at: String::new() }.problems_with(schema).is_empty()
+}
+
 /// A value with its JSON pointer.
 struct Instance<'a> {
     root: &'a Value,

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
 
+use soffio_exhibit::files::{self, MAX_SIDECAR_BYTES};
 use soffio_offline::atomic_file::AtomicFile;
 
 /// Tables of a sidecar whose numbers are no parameters of the exhibit: texts and the attract script.
@@ -255,7 +256,7 @@ impl Changes {
     /// The file cannot be read, changed or written; the message names it.
     pub fn make(&mut self, file: &Path, change: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
         let says = |why: String| format!("{}: {why}", file.display());
-        let before = std::fs::read_to_string(file).map_err(|error| says(error.to_string()))?;
+        let before = files::read_text(file, MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?;
         let after = change(&before).map_err(says)?;
         if after != before {
             write(file, &after)?;
@@ -278,7 +279,7 @@ impl Changes {
     /// The file has changed since, or cannot be written.
     pub fn undo(&mut self) -> Result<(), String> {
         let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
-        let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+        let now = files::read_text(&file, MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?;
         if now != after {
             return Err(format!("{}: somebody else has changed this file, so it stays as it is", file.display()));
         }

@@ -15,15 +15,13 @@ use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
 use soffio_config::OTHERS;
-use soffio_exhibit::{self as exhibit, Exhibit, Labels};
+use soffio_exhibit::{self as exhibit, Budget, Exhibit, Labels, Report, thumbnail};
 use soffio_render::{Baked, Lighting};
 
 /// Quiet time after the last change before an exhibit is loaded.
 pub const QUIET: Duration = Duration::from_millis(300);
-/// File name of an exhibit's picture, in its folder.
-pub const THUMBNAIL: &str = "thumbnail.png";
 /// Size of the stored picture, pixels: a tile is no larger on the screen.
-const THUMBNAIL_SIZE: (u32, u32) = (480, 270);
+const THUMBNAIL_SIZE: [u32; 2] = [480, 270];
 
 /// Where the exhibits come from.
 #[derive(Clone, Debug)]
@@ -166,7 +164,7 @@ impl Worker {
     }
 
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {
-        let event = match exhibit::load(&folder) {
+        let event = match load(&folder) {
             Ok(exhibit) => {
                 let event = lit(exhibit);
                 if let CatalogEvent::Show(..) = event {
@@ -184,13 +182,13 @@ impl Worker {
         if !is_exhibit(folder) {
             return self.events.send(CatalogEvent::Removed(id)).map_err(drop);
         }
-        let events = match exhibit::load(folder) {
+        let events = match load(folder) {
             Ok(exhibit) => {
                 let entry = CatalogEntry {
                     id,
                     folder: folder.to_path_buf(),
                     labels: exhibit.labels.clone(),
-                    thumbnail: thumbnail(folder),
+                    thumbnail: thumbnail::read(folder, THUMBNAIL_SIZE),
                 };
                 if changed && folder == self.shown {
                     self.events.send(lit(exhibit)).map_err(drop)?;
@@ -201,6 +199,11 @@ impl Worker {
         };
         self.events.send(events).map_err(drop)
     }
+}
+
+/// Loads an exhibit within the budget of memory and processor time.
+fn load(folder: &Path) -> Result<Exhibit, Report> {
+    exhibit::load_within(folder, &Budget::timed(|| cpu_time::ThreadTime::now().as_duration()))
 }
 
 /// The event that shows an exhibit, with its light; or why it cannot be drawn.
@@ -299,13 +302,6 @@ fn is_exhibit(folder: &Path) -> bool {
 /// The id of an exhibit: the name of its folder.
 pub fn id(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-/// The exhibit's picture, scaled down; `None` where it is missing or unreadable.
-fn thumbnail(folder: &Path) -> Option<image::RgbaImage> {
-    let picture = image::open(folder.join(THUMBNAIL)).ok()?;
-    let (width, height) = THUMBNAIL_SIZE;
-    Some(picture.resize_to_fill(width, height, image::imageops::FilterType::Triangle).to_rgba8())
 }
 
 fn watcher(
