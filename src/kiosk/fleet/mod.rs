@@ -16,7 +16,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
-use crate::fleet::mqtt::{Mqtt, Order};
+use crate::fleet::mqtt::Mqtt;
+pub use crate::fleet::mqtt::Order;
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
 use crate::fleet::persisted_spread::PersistedSpread;
 use crate::fleet::visits::{DWELL_S, FRAME_S, Histogram, VisitCounter, VisitorSigns};
@@ -27,7 +28,7 @@ use crate::venue::state::VenueState;
 use crate::visitor::breath_time::BreathTime;
 use soffio_config::{Config, Day, TimeOfDay};
 use soffio_devices::audio::DeviceState;
-use soffio_exhibit::{Exhibit, SIDECAR};
+use soffio_exhibit::{Exhibit, files};
 
 /// Longest wait of the daily self-test for a moment without visitors, minutes.
 const SELF_TEST_WAITS_MIN: u16 = 60;
@@ -301,7 +302,7 @@ fn state(seen: &WindowStatus, fleet: &FleetState) -> serde_json::Value {
 
 /// FNV-1a hash, 64 bits, of the exhibit's sidecar as it is when the exhibit is shown.
 fn version(exhibit: &Exhibit) -> String {
-    let bytes = std::fs::read(exhibit.folder.join(SIDECAR)).unwrap_or_default();
+    let bytes = files::read_sidecar(&exhibit.folder).unwrap_or_default();
     let hash = bytes
         .iter()
         .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3));
