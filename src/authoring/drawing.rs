@@ -98,7 +98,8 @@ fn offset(text: &str, row: usize, column: usize) -> usize {
     let start: usize = text.split_inclusive('\n').take(row.saturating_sub(1)).map(str::len).sum();
     let line = text.get(start..).unwrap_or_default();
     let into: usize = line.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
-    (start + into).min(text.len().saturating_sub(1))
+    // The end of a text has no character of its own.
+    text.floor_char_boundary((start + into).min(text.len().saturating_sub(1)))
 }
 
 /// Byte of the first tag that is nested too deeply.

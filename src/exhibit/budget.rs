@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn time_counts_from_the_beginning() {
-        std::thread_local!(static NOW: Cell<u64> = const { Cell::new(100) });
+        thread_local!(static NOW: Cell<u64> = const { Cell::new(100) });
         let budget = Budget::timed(|| Duration::from_secs(NOW.get()));
         NOW.set(110);
         budget.charge(1).expect("10 s");

@@ -14,6 +14,9 @@ use serde::Serialize;
 use super::codes::Code;
 use super::printable;
 
+/// Most problems that are shown as text. Each is found again in the whole source, and nobody reads more at once.
+const MAX_SHOWN: usize = 100;
+
 /// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -146,11 +149,14 @@ impl Report {
     fn render(&self, theme: GraphicalTheme) -> String {
         let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
         let mut text = String::new();
-        for diagnostic in &self.diagnostics {
+        for diagnostic in self.diagnostics.iter().take(MAX_SHOWN) {
             if handler.render_report(&mut text, self.to_miette(diagnostic).as_ref()).is_err() {
                 text.push_str(&printable::line(&diagnostic.message));
             }
             text.push('\n');
+        }
+        if let Some(more) = self.diagnostics.len().checked_sub(MAX_SHOWN).filter(|more| *more > 0) {
+            text.push_str(&format!("and {more} more problems; mend these first\n"));
         }
         text
     }

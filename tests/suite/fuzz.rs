@@ -188,6 +188,18 @@ fn torn(bytes: &[u8], random: &mut Random) -> Vec<u8> {
     out
 }
 
+/// Writes an input to a file if its trial fails.
+struct KeptOnFailure<'a>(&'a Path, &'a [u8]);
+
+impl Drop for KeptOnFailure<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            // The failure is reported whether or not the input can be kept.
+            let _ = std::fs::write(self.0, self.1);
+        }
+    }
+}
+
 #[test]
 fn torn_inputs_neither_panic_nor_take_long() {
     let inputs = std::env::var("SOFFIO_FUZZ_INPUTS").ok().and_then(|count| count.parse().ok()).unwrap_or(INPUTS);
@@ -207,8 +219,7 @@ fn torn_inputs_neither_panic_nor_take_long() {
             let mut random = Random(number.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
             random.next();
             let bytes = torn(&seeds[random.below(seeds.len())], &mut random);
-            // A panic, and what follows it, leaves the input there.
-            std::fs::write(&last, &bytes).expect("a writable folder");
+            let _kept = KeptOnFailure(&last, &bytes);
             let began = ThreadTime::now();
             try_it(folder.path(), &bytes);
             assert!(began.elapsed() < MOST_TIME, "{kind} {number} took {:?}: {}", began.elapsed(), last.display());

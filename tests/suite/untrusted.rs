@@ -103,8 +103,8 @@ fn images_that_are_too_much_together_are_refused_by_their_headers() {
     let image = "{\"uri\":\"grey.png\"}";
     let desk = exhibit(&format!(",\"images\":[{}]", vec![image; 9].join(",")), "");
     grey(&desk, "exhibit/grey.png", 4096);
-    // 64 MB each when decoded, and 80 MB more for a moment: the seventh is too much.
-    refused(&desk, &["E0005", "exhibit.toml:2", "images[6]", "4096 × 4096", "the limit is 512 MB"]);
+    // 64 MB each when decoded, and 80 MB more for a moment: the eighth is too much.
+    refused(&desk, &["E0005", "exhibit.toml:2", "images[7]", "4096 × 4096", "the exhibit needs 529 MB"]);
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn vertices_that_many_primitives_share_count_for_each() {
          \"accessors\":[{{\"bufferView\":0,\"componentType\":5126,\"count\":1000000,\"type\":\"VEC3\",\
          \"min\":[0,0,0],\"max\":[0,0,0]}},{{\"componentType\":5125,\"count\":3,\"type\":\"SCALAR\"}}],\
          \"meshes\":[{{\"primitives\":[{}]}}]",
-        vec![primitive; 5000].join(",")
+        vec![primitive; 30].join(",")
     );
     let desk = exhibit(&gltf, "");
     sparse(&desk, "exhibit/b.bin", 12_000_000);
@@ -197,6 +197,29 @@ fn escape_sequences_of_names_are_shown_and_not_sent_to_the_terminal() {
 fn a_number_that_no_museum_holds_is_refused_where_it_stands() {
     let desk = exhibit("", "[[body]]\nnode = \"A\"\nmass = 1\ninitial.position = [0, \"1e12 mm\", 0]\n");
     refused(&desk, &["E0226", "exhibit.toml:6", "body[0].initial.position[1]", "1000 m"]);
+}
+
+#[test]
+fn a_sidecar_of_many_mistakes_is_answered_soon() {
+    let desk = exhibit("", &"[[body]]\n".repeat(100_000));
+    refused(&desk, &["E0103", "and 900 more problems"]);
+    let fan = "[[wind.fan]]\nname=\"a\"\nat=[\"1 m\",\"1 m\",\"1 m\"]\ndirection=[1,0,0]\ndiameter=\"1 m\"\nspeed=\"1 m/s\"\n";
+    let desk = exhibit("", &fan.repeat(9000));
+    refused(&desk, &["E0201", "more problems"]);
+    let desk = exhibit("", &format!("{} = 1\n", vec!["a"; 400_000].join(".")));
+    refused(&desk, &["E0101"]);
+    let desk = exhibit("", &format!("x_own = {}\n", "[".repeat(100_000)));
+    refused(&desk, &["E0101"]);
+}
+
+#[test]
+fn a_trial_says_by_its_status_whether_an_exhibit_loads() {
+    let desk = exhibit("", "");
+    let (code, shown) = soffio(&desk.path(""), "check --trial exhibit");
+    assert_eq!(code, 0, "{shown}");
+    let desk = exhibit("", "[[body]]\nnode = \"B\"\n");
+    let (code, shown) = soffio(&desk.path(""), "check --trial exhibit");
+    assert_eq!(code, 1, "{shown}");
 }
 
 /// `soffio new` refuses a drawing with all these words.

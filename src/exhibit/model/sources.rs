@@ -304,7 +304,7 @@ impl Sources<'_> {
         let charged = self.budget.charge_briefly(while_decoding).and_then(|()| self.budget.charge(PIXEL_BYTES * size));
         if let Err(excess) = charged {
             let what = format_args!("is {width} × {height} pixels: {excess}");
-            return Ok(Err(Fault::at(Cause::Budget, place, what).remedy(SHRINK)));
+            return Ok(Err(Fault::at(Cause::Budget, place, what).remedy(excess.help())));
         }
         match DynamicImage::from_decoder(decoder) {
             Ok(decoded) => Ok(Ok(Image { width, height, rgba: decoded.into_rgba8().into_raw() })),

@@ -7,19 +7,22 @@
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
+use super::trial::Trials;
 use soffio_config::OTHERS;
 use soffio_exhibit::{self as exhibit, Budget, Exhibit, Labels, Report, thumbnail};
 use soffio_render::{Baked, Lighting};
 
 /// Quiet time after the last change before an exhibit is loaded.
 pub const QUIET: Duration = Duration::from_millis(300);
+/// After this time at one exhibit the worker counts as stuck: a trial takes at most 90 s, and loading 10 s of processor time.
+pub const STUCK: Duration = Duration::from_secs(150);
 /// Size of the stored picture, pixels: a tile is no larger on the screen.
 const THUMBNAIL_SIZE: [u32; 2] = [480, 270];
 
@@ -73,6 +76,8 @@ enum CatalogRequest {
 pub struct CatalogLoader {
     events: Receiver<CatalogEvent>,
     requests: Sender<CatalogRequest>,
+    /// Since when the worker is at what it does now.
+    busy: Arc<Mutex<Option<Instant>>>,
     /// Ends the watching when dropped.
     _watcher: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
 }
@@ -83,10 +88,13 @@ impl CatalogLoader {
     pub fn new(places: &ExhibitSource, shown: &Path, watched: bool) -> Self {
         let (requests, incoming) = channel::<CatalogRequest>();
         let (sender, events) = channel();
+        let busy = Arc::new(Mutex::new(None));
         let mut worker = Worker {
             events: sender,
             queue: folders(places).into_iter().map(|folder| (folder, false)).collect(),
             shown: shown.to_path_buf(),
+            trials: Trials::default(),
+            busy: busy.clone(),
         };
         let thread = std::thread::Builder::new().name("soffio-exhibits".into()).spawn(move || worker.run(&incoming));
         if let Err(error) = thread {
@@ -100,7 +108,12 @@ impl CatalogLoader {
         if let Some(Err(error)) = &watcher {
             tracing::warn!("{} is not watched for changes: {error}", watch.display());
         }
-        Self { events, requests, _watcher: watcher.and_then(Result::ok) }
+        Self { events, requests, busy, _watcher: watcher.and_then(Result::ok) }
+    }
+
+    /// How long the worker has been at what it does now; `None` where it waits.
+    pub fn busy_for(&self) -> Option<Duration> {
+        self.busy.lock().unwrap_or_else(PoisonError::into_inner).map(|since| since.elapsed())
     }
 
     /// Requests that the exhibit of a folder is loaded and shown. It returns at once; [`CatalogEvent::Show`] or
@@ -132,6 +145,8 @@ struct Worker {
     /// Folders to load, and whether they have changed.
     queue: VecDeque<(PathBuf, bool)>,
     shown: PathBuf,
+    trials: Trials,
+    busy: Arc<Mutex<Option<Instant>>>,
 }
 
 impl Worker {
@@ -147,6 +162,7 @@ impl Worker {
                 Err(TryRecvError::Empty) => None,
                 Ok(request) => Some(request),
             };
+            self.mark(Some(Instant::now()));
             let sent = match request {
                 Some(CatalogRequest::Show(folder)) => self.show(folder),
                 // Several changes during a load count as one.
@@ -157,14 +173,25 @@ impl Worker {
                 }
                 None => self.queue.pop_front().map_or(Ok(()), |(folder, changed)| self.look(&folder, changed)),
             };
+            self.mark(None);
             if sent.is_err() {
                 return;
             }
         }
     }
 
+    fn mark(&self, since: Option<Instant>) {
+        *self.busy.lock().unwrap_or_else(PoisonError::into_inner) = since;
+    }
+
+    /// Loads an exhibit that passes its trial, within the budget of memory and processor time.
+    fn load(&mut self, folder: &Path) -> Result<Exhibit, Report> {
+        self.trials.pass(folder)?;
+        exhibit::load_within(folder, &Budget::timed(|| cpu_time::ThreadTime::now().as_duration()))
+    }
+
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {
-        let event = match load(&folder) {
+        let event = match self.load(&folder) {
             Ok(exhibit) => {
                 let event = lit(exhibit);
                 if let CatalogEvent::Show(..) = event {
@@ -182,7 +209,7 @@ impl Worker {
         if !is_exhibit(folder) {
             return self.events.send(CatalogEvent::Removed(id)).map_err(drop);
         }
-        let events = match load(folder) {
+        let events = match self.load(folder) {
             Ok(exhibit) => {
                 let entry = CatalogEntry {
                     id,
@@ -199,11 +226,6 @@ impl Worker {
         };
         self.events.send(events).map_err(drop)
     }
-}
-
-/// Loads an exhibit within the budget of memory and processor time.
-fn load(folder: &Path) -> Result<Exhibit, Report> {
-    exhibit::load_within(folder, &Budget::timed(|| cpu_time::ThreadTime::now().as_duration()))
 }
 
 /// The event that shows an exhibit, with its light; or why it cannot be drawn.
