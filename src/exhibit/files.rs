@@ -1,7 +1,7 @@
 //! Opens the files of exhibits: regular files only, inside the exhibit's folder, without waiting.
 //!
-//! A FIFO, a socket or a device would block its reader, or have no end; a link out of the folder would show what the kiosk's user
-//! may read to whoever wrote the exhibit. Links inside the folder are followed.
+//! A FIFO, a socket or a device would block its reader, or have no end; a link out of the folder would show files of the
+//! kiosk's user to the exhibit's author. Links inside the folder are followed.
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};

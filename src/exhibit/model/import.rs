@@ -88,7 +88,7 @@ pub fn import(path: &Path) -> Result<Imported, Report> {
     import_within(path, &Budget::default())
 }
 
-/// As [`import`], within what is left of a budget.
+/// As [`import`], within the rest of a budget.
 ///
 /// # Errors
 /// All problems of the file.

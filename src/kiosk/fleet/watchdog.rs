@@ -1,9 +1,8 @@
 //! systemd notifications: the kiosk is ready, its status, and the watchdog's keep-alive.
 //!
 //! A keep-alive is sent only if three things made progress since the last one: frames were presented (or offered to a display
-//! that is off), the simulation advanced, and the loudspeaker played, where there is one; and if the loader of exhibits is not stuck.
-//! Otherwise systemd restarts the unit
-//! after `WatchdogSec`. Without systemd nothing is sent.
+//! that is off), the simulation advanced, and the loudspeaker played, where there is one. None is sent while the loader of exhibits is
+//! stuck. Without keep-alives systemd restarts the unit after `WatchdogSec`. Without systemd nothing is sent.
 
 use std::time::{Duration, Instant};
 

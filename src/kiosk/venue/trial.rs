@@ -1,7 +1,7 @@
 //! A trial of an exhibit in a process of its own, before the kiosk loads it for the first time or after its files changed.
 //!
-//! The loader counts what an exhibit costs, but what a library takes by mistake can only be stopped from outside: the trial runs under
-//! limits of address space and processor time, and if it dies, the kiosk goes on without that exhibit. An exhibit with mistakes passes,
+//! The loader counts what an exhibit costs, but what a library takes by mistake can only be stopped from outside. The trial runs under
+//! limits of address space and processor time. If it dies, the kiosk goes on without that exhibit. An exhibit with mistakes passes,
 //! since loading it says what they are. What has passed is not tried again until a file of it changes.
 
 use std::collections::BTreeMap;
