@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use kurbo::{Affine, BezPath, PathEl, Shape};
-use roxmltree::{Document, Node};
+use roxmltree::{Document, Node, ParsingOptions};
 use svgtypes::{Length, LengthUnit, PointsParser, ViewBox};
 
 use super::outline::area_and_centroid;
@@ -20,6 +20,20 @@ use soffio_math::DVec2;
 const FLATNESS: f64 = 0.05;
 /// Most corners of a plate.
 const MAX_CORNERS: usize = 2000;
+/// Most plates of a drawing, far more than hang on a mobile.
+const MAX_PLATES: usize = 256;
+/// Most elements of a drawing, whatever they are.
+const MAX_ELEMENTS: u32 = 100_000;
+/// Most groups within each other.
+const MAX_NESTING: usize = 64;
+/// Most segments of a path: with more, it has more corners than a plate may have.
+const MAX_SEGMENTS: usize = 4 * MAX_CORNERS;
+/// Greatest number in a drawing. Beyond it, arcs become lists of segments that no memory holds.
+const MAX_NUMBER: f64 = 1e6;
+/// Greatest distance of a point from the origin, mm: no sheet is 10 m long.
+const MAX_REACH: f64 = 10_000.0;
+/// Most problems that are listed; the rest are counted.
+const MAX_PROBLEMS: usize = 20;
 /// Length of an inch and of a CSS pixel, mm.
 const INCH: f64 = 25.4;
 const PIXEL: f64 = INCH / 96.0;
@@ -45,14 +59,30 @@ const IGNORED: [&str; 11] = [
 /// # Errors
 /// All problems of the drawing, each with its line.
 pub fn outlines(file: &str, text: &str) -> Result<Vec<Outline>, Report> {
-    let mut reader = Reader { file, text, plates: Vec::new(), problems: Vec::new() };
-    match Document::parse(text) {
+    let mut reader = Reader { file, text, plates: Vec::new(), problems: Vec::new(), more: 0 };
+    // Asked first, because the parser calls itself for each level.
+    if let Some(start) = nested_too_deeply(text) {
+        let message = format!("more than {MAX_NESTING} elements within each other");
+        reader.report(start..start + 1, message, "ungroup the drawing (Inkscape: Object, Ungroup)");
+        return Err(Report::in_file(file, Arc::from(text), reader.problems));
+    }
+    let options = ParsingOptions { nodes_limit: MAX_ELEMENTS, ..ParsingOptions::default() };
+    match Document::parse_with_options(text, options) {
         Ok(document) => reader.root(&document),
+        Err(roxmltree::Error::NodesLimitReached) => {
+            let message = format!("the drawing has more than {MAX_ELEMENTS} elements");
+            reader.report(0..1, message, "keep only the outlines of the plates");
+        }
         Err(error) => {
             let at = error.pos();
             let start = offset(text, at.row as usize, at.col as usize);
-            reader.report(start..start + 1, format!("this is not SVG: {error}"), "save the drawing as plain SVG");
+            let length = text[start..].chars().next().map_or(0, char::len_utf8);
+            reader.report(start..start + length, format!("this is not SVG: {error}"), "save the drawing as plain SVG");
         }
+    }
+    if reader.more > 0 {
+        let message = format!("and {} more problems", reader.more);
+        reader.problems.push(Diagnostic::new(codes::NEW, message).help("mend those above first"));
     }
     if reader.problems.is_empty() && reader.plates.is_empty() {
         reader.report(0..1, "the drawing has no closed shape".into(), "draw each plate as one closed path");
@@ -68,7 +98,43 @@ fn offset(text: &str, row: usize, column: usize) -> usize {
     let start: usize = text.split_inclusive('\n').take(row.saturating_sub(1)).map(str::len).sum();
     let line = text.get(start..).unwrap_or_default();
     let into: usize = line.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
-    (start + into).min(text.len().saturating_sub(1))
+    // The end of a text has no character of its own.
+    text.floor_char_boundary((start + into).min(text.len().saturating_sub(1)))
+}
+
+/// Byte of the first tag that is nested too deeply.
+fn nested_too_deeply(text: &str) -> Option<usize> {
+    let (mut depth, mut at) = (0_usize, 0);
+    while let Some(start) = text[at..].find('<').map(|found| at + found) {
+        let tag = &text[start..];
+        // What is not a tag may contain anything.
+        let skipped = [("<!--", "-->"), ("<![CDATA[", "]]>"), ("<?", "?>")];
+        let other = skipped.into_iter().find(|(begin, _)| tag.starts_with(begin));
+        if let Some((begin, end)) = other {
+            at = start + begin.len() + tag[begin.len()..].find(end)? + end.len();
+            continue;
+        }
+        let mut quote = None;
+        let end = tag.char_indices().find(|&(_, c)| {
+            match quote {
+                Some(open) if c == open => quote = None,
+                None if matches!(c, '"' | '\'') => quote = Some(c),
+                _ => {}
+            }
+            c == '>' && quote.is_none()
+        });
+        let (end, _) = end?;
+        if tag.starts_with("</") {
+            depth = depth.saturating_sub(1);
+        } else if !tag[..end].ends_with('/') {
+            depth += 1;
+        }
+        if depth > MAX_NESTING {
+            return Some(start);
+        }
+        at = start + end + 1;
+    }
+    None
 }
 
 struct Reader<'a> {
@@ -76,10 +142,16 @@ struct Reader<'a> {
     text: &'a str,
     plates: Vec<Outline>,
     problems: Vec<Diagnostic>,
+    /// Problems beyond those that are listed.
+    more: usize,
 }
 
 impl Reader<'_> {
     fn report(&mut self, span: std::ops::Range<usize>, message: String, help: &str) {
+        if self.problems.len() >= MAX_PROBLEMS {
+            self.more += 1;
+            return;
+        }
         let before = &self.text[..span.start.min(self.text.len())];
         let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
         let line = before.matches('\n').count() + 1;
@@ -141,6 +213,15 @@ impl Reader<'_> {
 
     /// Converts one element to one plate.
     fn plate(&mut self, node: Node, path: BezPath) {
+        if self.plates.len() >= MAX_PLATES {
+            let what = format!("is one more than {MAX_PLATES} plates");
+            return self.refuse(node, &what, "draw fewer, or make several exhibits");
+        }
+        let far = |p: kurbo::Point| !(p.x.abs() <= MAX_REACH && p.y.abs() <= MAX_REACH);
+        if path.elements().len() > MAX_SEGMENTS || path.elements().iter().flat_map(points_of).any(far) {
+            let what = format!("has more than {MAX_SEGMENTS} segments, or reaches beyond {} m", MAX_REACH / 1e3);
+            return self.refuse(node, &what, "check its size and the drawing's unit, or simplify it");
+        }
         let loops = path.elements().iter().filter(|e| matches!(e, PathEl::MoveTo(_))).count();
         if loops > 1 {
             let what =
@@ -192,6 +273,39 @@ fn element_name(node: Node) -> String {
     node.attribute("id").map_or_else(|| format!("<{name}>"), |id| format!("<{name} id=\"{id}\">"))
 }
 
+/// The points of a part of a path, with those that bend it.
+fn points_of(part: &PathEl) -> impl Iterator<Item = kurbo::Point> + use<> {
+    let points = match *part {
+        PathEl::MoveTo(p) | PathEl::LineTo(p) => [Some(p), None, None],
+        PathEl::QuadTo(a, p) => [Some(a), Some(p), None],
+        PathEl::CurveTo(a, b, p) => [Some(a), Some(b), Some(p)],
+        PathEl::ClosePath => [None; 3],
+    };
+    points.into_iter().flatten()
+}
+
+/// Are all numbers of a path's data within the limit? `None` where it cannot be read.
+fn moderate(data: &str) -> Option<bool> {
+    use svgtypes::PathSegment as Segment;
+    let numbers = |segment: Segment| match segment {
+        Segment::MoveTo { x, y, .. } | Segment::LineTo { x, y, .. } | Segment::SmoothQuadratic { x, y, .. } => {
+            [x, y, 0.0, 0.0, 0.0, 0.0]
+        }
+        Segment::HorizontalLineTo { x, .. } => [x, 0.0, 0.0, 0.0, 0.0, 0.0],
+        Segment::VerticalLineTo { y, .. } => [y, 0.0, 0.0, 0.0, 0.0, 0.0],
+        Segment::CurveTo { x1, y1, x2, y2, x, y, .. } => [x1, y1, x2, y2, x, y],
+        Segment::SmoothCurveTo { x2, y2, x, y, .. } => [x2, y2, x, y, 0.0, 0.0],
+        Segment::Quadratic { x1, y1, x, y, .. } => [x1, y1, x, y, 0.0, 0.0],
+        Segment::EllipticalArc { rx, ry, x_axis_rotation, x, y, .. } => [rx, ry, x_axis_rotation, x, y, 0.0],
+        Segment::ClosePath { .. } => [0.0; 6],
+    };
+    let mut all = true;
+    for segment in svgtypes::PathParser::from(data) {
+        all &= numbers(segment.ok()?).iter().all(|number| number.abs() <= MAX_NUMBER);
+    }
+    Some(all)
+}
+
 /// Length of a unit, mm; `None` for relative units.
 fn millimetres(unit: LengthUnit) -> Option<f64> {
     Some(match unit {
@@ -215,12 +329,22 @@ fn shape(node: Node) -> Result<BezPath, (String, &'static str)> {
             // Absolute units are multiples of pixels inside a drawing.
             unit => millimetres(unit).map(|mm| l.number * mm / PIXEL),
         });
-        value.ok_or_else(|| (format!("has {key} = \"{text}\", which is not a length"), "save it as plain SVG"))
+        match value {
+            Some(value) if value.abs() <= MAX_NUMBER => Ok(value),
+            Some(_) => Err((format!("has {key} = \"{text}\"; numbers go to {MAX_NUMBER:e}"), "draw it smaller")),
+            None => Err((format!("has {key} = \"{text}\", which is not a length"), "save it as plain SVG")),
+        }
     };
     const TOLERANCE: f64 = 0.01;
     match node.tag_name().name() {
         "path" => {
             let data = node.attribute("d").unwrap_or_default();
+            if moderate(data) == Some(false) {
+                return Err((format!("has numbers beyond {MAX_NUMBER:e}"), "draw it smaller"));
+            }
+            if moderate(data).is_none() && !data.trim().is_empty() {
+                return Err(("has a path that cannot be read".into(), "save it again as plain SVG"));
+            }
             BezPath::from_svg(data)
                 .map_err(|error| (format!("has a path that cannot be read: {error}"), "save it again as plain SVG"))
         }
@@ -238,6 +362,9 @@ fn shape(node: Node) -> Result<BezPath, (String, &'static str)> {
         name @ ("polygon" | "polyline") => {
             let mut path = BezPath::new();
             for (i, (x, y)) in PointsParser::from(node.attribute("points").unwrap_or_default()).enumerate() {
+                if x.abs().max(y.abs()) > MAX_NUMBER {
+                    return Err((format!("has numbers beyond {MAX_NUMBER:e}"), "draw it smaller"));
+                }
                 if i == 0 { path.move_to((x, y)) } else { path.line_to((x, y)) }
             }
             if name == "polygon" && !path.elements().is_empty() {

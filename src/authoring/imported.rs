@@ -15,7 +15,7 @@ use super::texts::{AttractBreath, attract, in_three_languages, labels, quoted};
 use super::{ExhibitFolder, FolderFile};
 use soffio_exhibit::diagnostic::{Diagnostic, Report};
 use soffio_exhibit::model::{Imported, MAX_FILE_BYTES, Model, import};
-use soffio_exhibit::{SIDECAR, materials, paths};
+use soffio_exhibit::{SIDECAR, files, materials, paths};
 use soffio_geometry::TriangleMesh;
 use soffio_math::DVec3;
 
@@ -36,7 +36,7 @@ const SHEET_THICKNESS: f64 = 1e-3;
 /// Problems of the model, and referenced files that cannot be read.
 pub fn folder(path: &Path, id: &str) -> Result<ExhibitFolder, Report> {
     let Imported { model, warnings, document: json } = import(path)?;
-    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
+    let bytes = files::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
     let binary = bytes.starts_with(b"glTF");
     let name = format!("{id}.{}", if binary { "glb" } else { "gltf" });
     let mut made = ExhibitFolder { files: referenced_files(path, &json).map_err(Report::single)?, remarks: Vec::new() };
@@ -59,7 +59,7 @@ fn referenced_files(path: &Path, json: &Value) -> Result<Vec<FolderFile>, Diagno
             }
             let name = paths::percent_decoded(uri);
             if files.iter().all(|file| file.name != name) {
-                let bytes = paths::read_limited(&paths::inside(folder, &name)?, MAX_FILE_BYTES)?;
+                let bytes = files::read_inside(folder, &name, MAX_FILE_BYTES)?;
                 files.push(FolderFile { name, bytes });
             }
         }

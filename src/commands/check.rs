@@ -8,11 +8,12 @@ use super::failure::{Failure, Outcome};
 use super::fix;
 use soffio_config::{Config, Problem};
 use soffio_exhibit::renamed::{self, FileKind};
-use soffio_exhibit::{self as exhibit, Diagnostic, Location, Report, codes, model};
+use soffio_exhibit::{self as exhibit, Budget, Diagnostic, Location, Report, codes, model, printable};
 #[cfg(feature = "kiosk")]
 use soffio_kiosk::pages::ui_strings;
 use soffio_offline::budget::{self, Findings};
 use soffio_offline::scene::PhysicsScene;
+use soffio_simulation::{Settings, Simulation, StepInput};
 
 /// Validates exhibits, configs and models: all problems at once, located, explained.
 ///
@@ -30,6 +31,9 @@ pub struct Args {
     /// Does not run the exhibits.
     #[arg(long)]
     quick: bool,
+    /// Only whether it loads and takes its first steps: a trial before the kiosk loads it.
+    #[arg(long, hide = true)]
+    trial: bool,
     /// Rewrites files with old names of keys, and says what changed; comments and layout stay.
     #[arg(long)]
     fix: bool,
@@ -37,6 +41,19 @@ pub struct Args {
     #[arg(long)]
     json: bool,
 }
+
+/// How far an exhibit without mistakes is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Run {
+    No,
+    /// For [`FIRST_STEPS`].
+    FirstSteps,
+    /// Under all stress loads.
+    Loads,
+}
+
+/// Steps of a trial: enough to take what memory a run takes.
+const FIRST_STEPS: usize = 24;
 
 /// Runs the command.
 pub fn run(args: Args) -> Outcome {
@@ -46,7 +63,16 @@ pub fn run(args: Args) -> Outcome {
     }
     let mut all = Report::default();
     for path in paths {
-        let (report, findings) = check(&path, args.quick);
+        let (report, findings) = check(
+            &path,
+            if args.trial {
+                Run::FirstSteps
+            } else if args.quick {
+                Run::No
+            } else {
+                Run::Loads
+            },
+        );
         if !args.json {
             let verdict = match (report.has_errors(), report.diagnostics.len()) {
                 (_, 0) => "good".to_owned(),
@@ -58,12 +84,12 @@ pub fn run(args: Args) -> Outcome {
                 None => verdict,
             };
             eprint!("{}", report.to_terminal_text());
-            eprintln!("{path}: {verdict}");
+            eprintln!("{}: {verdict}", printable::line(&path));
         }
         all.absorb(report);
     }
     if args.json {
-        println!("{}", all.to_json());
+        println!("{}", printable::json(&all.to_json().to_string()));
     }
     if all.has_errors() { Err(Failure { code: 1, message: String::new() }) } else { Ok(()) }
 }
@@ -83,14 +109,14 @@ fn expand(path: &str) -> Vec<String> {
 }
 
 /// Problems and warnings of one path, by what it is, and what a run found.
-fn check(path: &str, quick: bool) -> (Report, Option<Findings>) {
+fn check(path: &str, run: Run) -> (Report, Option<Findings>) {
     let file = Path::new(path);
     let extension = file.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
     let without = |report: Report| (report, None);
     let outcome = match extension.as_str() {
         "glb" | "gltf" => model::import(file).map(|imported| without(imported.warnings.into())),
         "toml" if file.file_name().is_some_and(|name| name == exhibit::SIDECAR) => {
-            exhibit_report(file.parent().unwrap_or(file), quick)
+            exhibit_report(file.parent().unwrap_or(file), run)
         }
         "toml" => {
             let mut report = match Config::load(Some(file)) {
@@ -102,7 +128,7 @@ fn check(path: &str, quick: bool) -> (Report, Option<Findings>) {
         }
         "ftl" => Ok(without(texts_report(file))),
         "json" => scene_report(file).map(without),
-        _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder, quick)),
+        _ => exhibit::resolve(path).and_then(|folder| exhibit_report(&folder, run)),
     };
     outcome.unwrap_or_else(without)
 }
@@ -185,11 +211,18 @@ fn scene_report(file: &Path) -> Result<Report, Report> {
     Ok(warnings.collect::<Vec<_>>().into())
 }
 
-fn exhibit_report(folder: &Path, quick: bool) -> Result<(Report, Option<Findings>), Report> {
-    let exhibit = Arc::new(exhibit::load(folder)?);
+fn exhibit_report(folder: &Path, run: Run) -> Result<(Report, Option<Findings>), Report> {
+    let budget = Budget::timed(|| cpu_time::ThreadTime::now().as_duration());
+    let exhibit = Arc::new(exhibit::load_within(folder, &budget)?);
     let mut report = exhibit.warning_report();
-    if quick {
-        return Ok((report, None));
+    match run {
+        Run::No => return Ok((report, None)),
+        Run::FirstSteps => {
+            let mut simulation = Simulation::new(exhibit, Settings::default());
+            (0..FIRST_STEPS).for_each(|_| simulation.step(&StepInput { hold: true, ..StepInput::default() }));
+            return Ok((report, None));
+        }
+        Run::Loads => {}
     }
     let findings = budget::check(&exhibit);
     let warnings = findings.late.iter().map(|late| late.warning(&exhibit.id)).collect::<Vec<_>>();

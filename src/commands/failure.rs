@@ -1,5 +1,6 @@
 //! How a command ends.
 
+use soffio_exhibit::printable;
 use soffio_offline::play::PlayError;
 #[cfg(feature = "kiosk")]
 use soffio_render::RenderError;
@@ -20,6 +21,20 @@ impl Failure {
     /// Bad input, or problems found.
     pub fn input(message: impl std::fmt::Display) -> Self {
         Self { code: 1, message: message.to_string() }
+    }
+
+    /// The message as it may be shown on a terminal: of escape sequences only those that set a colour, which reports have.
+    pub fn shown(&self) -> String {
+        /// Begin of a sequence that sets colours and weight; digits and `;` follow, then `m`.
+        const COLOR: &str = "\x1b[";
+        let mut parts = self.message.split(COLOR);
+        let mut out = printable::lines(parts.next().unwrap_or_default()).into_owned();
+        for part in parts {
+            let end = part.find(|c: char| !c.is_ascii_digit() && c != ';').unwrap_or(part.len());
+            out.push_str(if part[end..].starts_with('m') { COLOR } else { r"\u{1b}[" });
+            out.push_str(&printable::lines(part));
+        }
+        out
     }
 
     /// A device or driver is missing, or another kiosk is running.

@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use soffio_exhibit::renamed::{self, FileKind};
-use soffio_exhibit::{self as exhibit, SIDECAR};
+use soffio_exhibit::{self as exhibit, Report, SIDECAR, files};
 use soffio_offline::atomic_file::AtomicFile;
+
+/// Most bytes of a file: physics scenes are the longest.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// A file that is going to be rewritten.
 struct Rewrite {
@@ -49,7 +52,7 @@ fn target(path: &str) -> Option<(PathBuf, FileKind)> {
 /// What there is to rewrite in a file; `None` where it has no old name.
 fn plan(file: &Path, kind: FileKind) -> Result<Option<Rewrite>, Failure> {
     let cannot = |why: &dyn std::fmt::Display| Failure::input(format!("{} cannot be rewritten: {why}", file.display()));
-    let text = std::fs::read_to_string(file).map_err(|error| cannot(&error))?;
+    let text = files::read_text(file, MAX_BYTES).map_err(|problem| Failure::input(Report::single(problem)))?;
     if let Err(why) = well_formed(kind, &text) {
         return Err(cannot(&format!("{why}; `soffio check` says where")));
     }

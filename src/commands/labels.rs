@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::failure::{Failure, Outcome};
-use soffio_exhibit::{self as exhibit, SIDECAR, labels};
+use soffio_exhibit::{self as exhibit, Report, SIDECAR, files, labels};
 use soffio_offline::atomic_file::AtomicFile;
 
 /// Largest table, bytes.
@@ -55,13 +55,7 @@ pub fn run(args: Args) -> Outcome {
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
-    let unreadable = |why: &dyn std::fmt::Display| Failure::input(format!("{} cannot be read: {why}", path.display()));
-    let size = std::fs::metadata(path).map_err(|error| unreadable(&error))?.len();
-    if size > MAX_TABLE {
-        return Err(unreadable(&format_args!("it has {size} bytes; the limit is {MAX_TABLE}")));
-    }
-    let bytes = std::fs::read(path).map_err(|error| unreadable(&error))?;
-    String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8; save it as CSV, UTF-8"))
+    files::read_text(path, MAX_TABLE).map_err(|problem| Failure::input(Report::single(problem)))
 }
 
 fn put(path: &Path, text: &str) -> Outcome {

@@ -111,7 +111,7 @@ pub fn run() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
             if !failure.message.is_empty() {
-                eprintln!("soffio: {}", failure.message);
+                eprintln!("soffio: {}", failure.shown());
             }
             ExitCode::from(failure.code)
         }

@@ -12,15 +12,17 @@ use soffio_authoring::notes::{chime, note};
 use soffio_authoring::plate_mobile::{Metal, Outline, sized};
 use soffio_authoring::template::Template;
 use soffio_authoring::{ExhibitFolder, FolderFile, id_problem, starter};
-use soffio_exhibit::{self as exhibit, Diagnostic, Exhibit, Report};
+use soffio_exhibit::{self as exhibit, Diagnostic, Exhibit, Report, files};
 use soffio_offline::atomic_folder::AtomicFolder;
 
 /// Plates that are proposed at a terminal.
 const PLATES: &str = "120x80,100,90x60,70";
 /// Notes of the shipped chimes.
 const NOTES: &str = "C5,D5,E5,G5,A5,C6";
-/// Largest drawing, bytes.
-const MAX_DRAWING: u64 = 16 << 20;
+/// Largest drawing, bytes: outlines of 256 plates of 2000 corners, as text.
+const MAX_DRAWING: u64 = 4 << 20;
+/// Stack of the thread that reads it, bytes: 64 elements within each other take far less.
+const DRAWING_STACK: usize = 8 << 20;
 
 /// Creates an exhibit from a template: a complete folder, with a sidecar whose comments explain it.
 #[derive(clap::Args, Debug)]
@@ -201,18 +203,30 @@ pub(super) fn report(made: &ExhibitFolder, folder: &Path, id: &str, exhibit: &Ex
 /// The plates: given, drawn, or asked for.
 fn plates(args: &Args) -> Result<Vec<Outline>, Failure> {
     if let Some(path) = &args.outlines {
-        let unreadable =
-            |why: &dyn std::fmt::Display| Failure::input(format!("{} cannot be read: {why}", path.display()));
-        let size = std::fs::metadata(path).map_err(|error| unreadable(&error))?.len();
-        if size > MAX_DRAWING {
-            return Err(unreadable(&format_args!("it has {size} bytes; the limit is {MAX_DRAWING}")));
-        }
-        let bytes = std::fs::read(path).map_err(|error| unreadable(&error))?;
-        let text = String::from_utf8(bytes).map_err(|_| unreadable(&"it is not UTF-8 text; save it as plain SVG"))?;
-        return outlines(&path.display().to_string(), &text).map_err(Failure::input);
+        let bytes =
+            files::read_limited(path, MAX_DRAWING).map_err(|problem| Failure::input(Report::single(problem)))?;
+        return drawn(&path.display().to_string(), bytes);
     }
     let sizes = if args.plates.is_empty() { ask()? } else { args.plates.clone() };
     all(sizes.iter().map(|size| sized(size))).map_err(Failure::input)
+}
+
+/// The plates of a drawing. The libraries that read SVG have a stack of their own, and what they cannot take ends them alone.
+fn drawn(name: &str, bytes: Vec<u8>) -> Result<Vec<Outline>, Failure> {
+    let unreadable = |why: &str| Failure::input(format!("{name} cannot be read: {why}"));
+    let text = String::from_utf8(bytes).map_err(|_| unreadable("it is not UTF-8 text; save it as plain SVG"))?;
+    let file = name.to_owned();
+    let default = std::panic::take_hook();
+    // The failure says it, in words for a curator.
+    std::panic::set_hook(Box::new(|_| {}));
+    let reader = std::thread::Builder::new().stack_size(DRAWING_STACK).spawn(move || outlines(&file, &text));
+    let read = reader.map(std::thread::JoinHandle::join);
+    std::panic::set_hook(default);
+    match read {
+        Ok(Ok(read)) => read.map_err(Failure::input),
+        Ok(Err(_)) => Err(unreadable("its outlines cannot be followed; simplify them, and save it as plain SVG")),
+        Err(error) => Err(unreadable(&error.to_string())),
+    }
 }
 
 /// Asks for sizes at a terminal.

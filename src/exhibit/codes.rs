@@ -27,6 +27,8 @@ codes! {
     UNREADABLE = "E0002", "a file cannot be read";
     OUTSIDE = "E0003", "a path leaves the exhibit folder";
     TOO_LARGE = "E0004", "a file is larger than the limit";
+    BUDGET = "E0005", "the exhibit needs more memory or processor time than it may take";
+    NOT_A_FILE = "E0006", "a path leads to something that is no regular file";
     SYNTAX = "E0101", "the sidecar is not TOML";
     UNKNOWN_KEY = "E0102", "the sidecar has a key that the format does not know";
     MISSING_KEY = "E0103", "a required key is missing";

@@ -8,10 +8,14 @@ use std::io::IsTerminal;
 use std::ops::Range;
 use std::sync::Arc;
 
-use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource, SourceCode};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
 use serde::Serialize;
 
 use super::codes::Code;
+use super::printable;
+
+/// Most problems that are shown as text. Each is found again in the whole source, and nobody reads more at once.
+const MAX_SHOWN: usize = 100;
 
 /// Severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -145,27 +149,34 @@ impl Report {
     fn render(&self, theme: GraphicalTheme) -> String {
         let handler = GraphicalReportHandler::new_themed(theme).with_links(false).with_width(110);
         let mut text = String::new();
-        for diagnostic in &self.diagnostics {
+        for diagnostic in self.diagnostics.iter().take(MAX_SHOWN) {
             if handler.render_report(&mut text, self.to_miette(diagnostic).as_ref()).is_err() {
-                text.push_str(&diagnostic.message);
+                text.push_str(&printable::line(&diagnostic.message));
             }
             text.push('\n');
+        }
+        if let Some(more) = self.diagnostics.len().checked_sub(MAX_SHOWN).filter(|more| *more > 0) {
+            text.push_str(&format!("and {more} more problems; mend these first\n"));
         }
         text
     }
 
+    /// The one place where text of files comes to a terminal: all of it is made printable here.
     fn to_miette(&self, diagnostic: &Diagnostic) -> miette::Report {
-        let mut dressed = MietteDiagnostic::new(&diagnostic.message).with_code(diagnostic.code);
+        let mut dressed = MietteDiagnostic::new(printable::line(&diagnostic.message)).with_code(diagnostic.code);
         dressed.severity = Some(match diagnostic.severity {
             Severity::Error => miette::Severity::Error,
             Severity::Warning => miette::Severity::Warning,
         });
-        dressed.help = diagnostic.help.clone();
+        dressed.help = diagnostic.help.as_deref().map(|help| printable::lines(help).into_owned());
         let placed = diagnostic.location.as_ref().and_then(|at| Some((at, self.sources.get(&at.file)?)));
         let Some((at, text)) = placed else { return miette::Report::new(dressed) };
         let label = if diagnostic.label.is_empty() { "here" } else { &diagnostic.label };
-        let dressed = dressed.with_label(LabeledSpan::at(at.span.clone(), label));
-        miette::Report::new(dressed).with_source_code(named(&at.file, text))
+        // Escapes are longer than what they stand for, so the place moves.
+        let moved = |byte: usize| printable::lines(&text[..text.floor_char_boundary(byte)]).len();
+        let label = LabeledSpan::at(moved(at.span.start)..moved(at.span.end), printable::line(label));
+        let source = NamedSource::new(printable::line(&at.file), printable::lines(text).into_owned());
+        miette::Report::new(dressed.with_label(label)).with_source_code(source)
     }
 }
 
@@ -173,10 +184,6 @@ impl From<Vec<Diagnostic>> for Report {
     fn from(diagnostics: Vec<Diagnostic>) -> Self {
         Self { diagnostics, sources: BTreeMap::new() }
     }
-}
-
-fn named(file: &str, text: &Arc<str>) -> impl SourceCode + 'static {
-    NamedSource::new(file, text.to_string())
 }
 
 impl fmt::Display for Report {

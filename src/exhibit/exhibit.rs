@@ -8,6 +8,7 @@ use super::bodies::{Body, Cord, Material, MaterialPair, Wire};
 use super::chart::Chart;
 use super::clock;
 use super::diagnostic::{Diagnostic, Report};
+use super::files;
 use super::light::LightRig;
 use super::model::Model;
 use super::paths::SIDECAR;
@@ -123,7 +124,8 @@ impl Exhibit {
     /// The warnings as a report with the sidecar's text, for display.
     pub fn warning_report(&self) -> Report {
         let file = self.folder.join(SIDECAR);
-        let text = std::fs::read_to_string(&file).unwrap_or_default();
+        let bytes = files::read_sidecar(&self.folder).unwrap_or_default();
+        let text = String::from_utf8(bytes).unwrap_or_default();
         Report::in_file(&file.display().to_string(), text.into(), self.warnings.clone())
     }
 

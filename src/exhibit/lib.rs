@@ -11,6 +11,7 @@
 //! | [`Exhibit`] | bodies, constraints, colliders, wind surfaces, instruments, labels, camera |
 //! | [`load`], [`ids`], [`resolve()`] | read a folder; list the exhibits that can be found; find one |
 //! | [`Report`], [`Diagnostic`], [`codes`] | problems: what is wrong, where, and what to do |
+//! | [`files`], [`budget`], [`thumbnail`] | how files are opened, and what an exhibit may cost |
 //! | [`sidecar`] | the tables of `exhibit.toml`, from which the JSON Schema is made |
 //! | [`model`] | the glTF model: meshes, materials, nodes, animations, cameras |
 //! | [`finish`] | wood, metal, paint: maps, and how they are laid on meshes |
@@ -32,11 +33,13 @@
 pub mod animated_scale;
 mod behavior;
 mod bodies;
+pub mod budget;
 pub mod chart;
 pub mod clock;
 pub mod codes;
 pub mod diagnostic;
 mod exhibit;
+pub mod files;
 pub mod finish;
 pub mod fit;
 pub mod labels;
@@ -47,6 +50,7 @@ pub mod own_timbres;
 mod pairs;
 pub mod paths;
 mod presentation;
+pub mod printable;
 pub mod quantity;
 pub mod renamed;
 mod resolve;
@@ -55,6 +59,7 @@ pub mod shape_tracks;
 pub mod sidecar;
 pub mod signal;
 mod source;
+pub mod thumbnail;
 pub mod view;
 
 pub use behavior::{
@@ -62,11 +67,12 @@ pub use behavior::{
     TouchPermission,
 };
 pub use bodies::{Body, Cord, Material, MaterialPair, Wire};
+pub use budget::Budget;
 pub use diagnostic::{Diagnostic, Location, Report, Severity};
 pub use exhibit::{Exhibit, Origin};
 pub use light::{LightRig, Side};
 pub use model::Model;
 pub use paths::{SIDECAR, exhibits_folder, ids, resolve};
 pub use presentation::{Attract, AttractAction, AttractStep, Credit, Label, Labels};
-pub use resolve::{load, load_model};
+pub use resolve::{load, load_model, load_within};
 pub use view::{OrbitLimits, View};

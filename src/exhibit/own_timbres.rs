@@ -7,15 +7,18 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::budget::Budget;
 use super::codes;
 use super::diagnostic::{Diagnostic, Location, Report};
-use super::paths;
+use super::files;
 use soffio_sound::{Preset, TimbreError};
 
 /// Folder of the timbres inside an exhibit's folder.
 pub const FOLDER: &str = "timbres";
 /// Largest file, bytes: the bound of the format.
 const LARGEST: u64 = 1 << 20;
+/// Memory of a parsed timbre over its size, as of a sidecar.
+const PARSED: u64 = 200;
 /// Most files: far more than an exhibit has instruments.
 const MOST: usize = 256;
 
@@ -38,7 +41,7 @@ struct OwnTimbre {
 
 impl OwnTimbres {
     /// Reads and checks all files of an exhibit's folder.
-    pub fn read(folder: &Path) -> Self {
+    pub fn read(folder: &Path, budget: &Budget) -> Self {
         let mut own = Self::default();
         let Ok(entries) = std::fs::read_dir(folder.join(FOLDER)) else { return own };
         let mut names: Vec<String> =
@@ -47,17 +50,19 @@ impl OwnTimbres {
         names.sort();
         let wanted = names.iter().filter(|name| !name.starts_with('.'));
         for name in wanted.filter_map(|name| name.strip_suffix(".toml")).take(MOST) {
-            let path = folder.join(FOLDER).join(format!("{name}.toml"));
-            if let Err(problem) = own.read_file(name, &path) {
+            let relative = format!("{FOLDER}/{name}.toml");
+            if let Err(problem) = own.read_file(name, folder, &relative, budget) {
                 own.problems.push(problem);
             }
         }
         own
     }
 
-    fn read_file(&mut self, name: &str, path: &Path) -> Result<(), Diagnostic> {
-        let bytes = paths::read_limited(path, LARGEST)?;
-        let path = path.display().to_string();
+    fn read_file(&mut self, name: &str, folder: &Path, relative: &str, budget: &Budget) -> Result<(), Diagnostic> {
+        let path = folder.join(relative).display().to_string();
+        let file = files::open_inside(folder, relative)?.within(LARGEST)?;
+        budget.charge(PARSED * file.size()).map_err(|excess| excess.diagnostic(&path))?;
+        let bytes = file.read()?;
         let text = String::from_utf8(bytes).map_err(|error| {
             Diagnostic::new(codes::SYNTAX, format!("{path} is not UTF-8: {error}")).help("save it as UTF-8")
         })?;

@@ -1,6 +1,5 @@
 //! Paths: an exhibit reads only files in its own folder; ids are looked up in the folders of exhibits.
 
-use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 use super::codes;
@@ -9,31 +8,8 @@ use super::diagnostic::{Diagnostic, Report, quoted, similar_names};
 /// File name of the sidecar in an exhibit folder.
 pub const SIDECAR: &str = "exhibit.toml";
 
-/// Reads a file of at most `limit` bytes.
-///
-/// # Errors
-/// Where the file is missing, larger, or cannot be read.
-pub fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, Diagnostic> {
-    let unreadable = |error: std::io::Error| {
-        let help = match error.kind() {
-            ErrorKind::NotFound => in_its_place(path),
-            ErrorKind::PermissionDenied => "let the kiosk's user read it: chmod a+r".to_owned(),
-            _ => "check that it is a file and that the disk works".to_owned(),
-        };
-        Diagnostic::new(codes::UNREADABLE, format!("{} cannot be read: {error}", path.display())).help(help)
-    };
-    let size = std::fs::metadata(path).map_err(unreadable)?.len();
-    if size > limit {
-        let message = format!("{} has {size} bytes; the limit is {limit}", path.display());
-        return Err(
-            Diagnostic::new(codes::TOO_LARGE, message).help("check that it is the right file, or make it smaller")
-        );
-    }
-    std::fs::read(path).map_err(unreadable)
-}
-
 /// A hint that names similar files in the folder of `path`.
-fn in_its_place(path: &Path) -> String {
+pub(super) fn in_its_place(path: &Path) -> String {
     let entries = path.parent().map(folder_or_here).and_then(|folder| std::fs::read_dir(folder).ok());
     let mut names: Vec<String> = entries
         .into_iter()
@@ -85,7 +61,7 @@ pub fn inside(folder: &Path, relative: &str) -> Result<PathBuf, Diagnostic> {
     Ok(full)
 }
 
-fn folder_or_here(folder: &Path) -> &Path {
+pub(super) fn folder_or_here(folder: &Path) -> &Path {
     if folder.as_os_str().is_empty() { Path::new(".") } else { folder }
 }
 

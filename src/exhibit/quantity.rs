@@ -1,12 +1,14 @@
 //! Physical quantities with units: a bare number is SI, a text carries its unit (`"35 deg"`, `"12 mm"`, `"2.7 g/cm3"`).
 //!
 //! Each kind of quantity is a type of its own: a mass in place of a length is refused by the schema check, which lists
-//! the units that fit.
+//! the units that fit. Each kind has a limit: what a museum can hold, with a margin of ten to a thousand. Beyond it a run takes
+//! minutes a second, or products of numbers lose their digits.
 
 use std::borrow::Cow;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, de};
+use serde_json::Value;
 
 /// Splits `"12 mm"` into number and unit.
 fn split(text: &str) -> Option<(f64, &str)> {
@@ -67,8 +69,46 @@ impl Quantity for f64 {
     }
 }
 
+/// The limit of a kind of quantity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// Name of its type, and of its definition in the schema.
+    pub name: &'static str,
+    /// The kind, for messages.
+    pub kind: &'static str,
+    /// Greatest magnitude, SI.
+    pub most: f64,
+    /// Units, the SI unit first, with their factors.
+    pub units: &'static [(&'static str, f64)],
+}
+
+impl Bound {
+    /// The value of a number or a text with a unit, SI; `None` for anything else.
+    pub fn value(&self, value: &Value) -> Option<f64> {
+        match value {
+            Value::String(text) => convert(text, self.units).ok(),
+            other => other.as_f64(),
+        }
+    }
+
+    /// The limit with its unit.
+    pub fn shown(&self) -> String {
+        format!("{} {}", self.most, self.units.first().map_or("", |(unit, _)| unit))
+    }
+}
+
+/// Greatest magnitude of a number without a unit: factors, directions and coefficients are far below it, and its square and
+/// cube stay exact enough.
+pub const MAX_NUMBER: f64 = 1e9;
+/// Greatest count, such as teeth of a gear or voices of a sound.
+pub const MAX_COUNT: u64 = 10_000;
+
 macro_rules! quantities {
-    ($($(#[$doc:meta])* $name:ident, $kind:literal, [$(($unit:literal, $factor:expr)),+];)*) => {$(
+    ($($(#[$doc:meta])* $name:ident, $kind:literal, $most:expr, [$(($unit:literal, $factor:expr)),+];)*) => {
+        /// The limits of all kinds.
+        pub const BOUNDS: &[Bound] =
+            &[$(Bound { name: stringify!($name), kind: $kind, most: $most, units: $name::UNITS }),*];
+        $(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd, Serialize)]
         pub struct $name(pub f64);
@@ -103,46 +143,46 @@ macro_rules! quantities {
 const DEGREE: f64 = soffio_math::PI / 180.0;
 
 quantities! {
-    /// A length, m.
-    Length, "length", [("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254)];
-    /// A mass, kg.
-    Mass, "mass", [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("t", 1e3)];
-    /// A density, kg/m³.
-    Density, "density", [("kg/m3", 1.0), ("g/cm3", 1e3)];
-    /// A pressure or modulus, Pa.
-    Pressure, "pressure", [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
+    /// A length, m. No hall is longer than 1 km.
+    Length, "length", 1e3, [("m", 1.0), ("mm", 1e-3), ("cm", 1e-2), ("in", 0.0254)];
+    /// A mass, kg. 1,000 t.
+    Mass, "mass", 1e6, [("kg", 1.0), ("g", 1e-3), ("mg", 1e-6), ("t", 1e3)];
+    /// A density, kg/m³. Osmium has 22,600.
+    Density, "density", 1e5, [("kg/m3", 1.0), ("g/cm3", 1e3)];
+    /// A pressure or modulus, Pa. Diamond has 1.2 · 10¹².
+    Pressure, "pressure", 1e13, [("Pa", 1.0), ("kPa", 1e3), ("MPa", 1e6), ("GPa", 1e9)];
     /// An angle, rad.
-    Angle, "angle", [("rad", 1.0), ("deg", DEGREE)];
-    /// A speed, m/s.
-    Speed, "speed", [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)];
-    /// An angular velocity, rad/s.
-    Rotation, "angular velocity", [("rad/s", 1.0), ("deg/s", DEGREE), ("rpm", soffio_math::PI / 30.0)];
+    Angle, "angle", 1e6, [("rad", 1.0), ("deg", DEGREE)];
+    /// A speed, m/s. The simulation refuses more.
+    Speed, "speed", 1e3, [("m/s", 1.0), ("cm/s", 1e-2), ("mm/s", 1e-3), ("km/h", 1.0 / 3.6)];
+    /// An angular velocity, rad/s. The simulation refuses more.
+    Rotation, "angular velocity", 1e5, [("rad/s", 1.0), ("deg/s", DEGREE), ("rpm", soffio_math::PI / 30.0)];
     /// An acceleration, m/s².
-    Acceleration, "acceleration", [("m/s2", 1.0)];
-    /// A time, s.
-    Time, "time", [("s", 1.0), ("ms", 1e-3), ("min", 60.0)];
+    Acceleration, "acceleration", 1e4, [("m/s2", 1.0)];
+    /// A time, s. 116 days.
+    Time, "time", 1e7, [("s", 1.0), ("ms", 1e-3), ("min", 60.0)];
     /// A rate, 1/s.
-    Rate, "rate", [("/s", 1.0), ("1/s", 1.0), ("/min", 1.0 / 60.0)];
+    Rate, "rate", 1e6, [("/s", 1.0), ("1/s", 1.0), ("/min", 1.0 / 60.0)];
     /// A level: dB of an amplitude ratio.
-    Decibel, "level", [("dB", 1.0)];
+    Decibel, "level", 200.0, [("dB", 1.0)];
     /// Points per area, 1/m².
-    PerArea, "density of points", [("/m2", 1.0), ("/cm2", 1e4), ("/dm2", 1e2)];
+    PerArea, "density of points", 1e9, [("/m2", 1.0), ("/cm2", 1e4), ("/dm2", 1e2)];
     /// A stiffness, N/m.
-    Stiffness, "stiffness", [("N/m", 1.0), ("N/mm", 1e3), ("N/cm", 1e2)];
+    Stiffness, "stiffness", 1e12, [("N/m", 1.0), ("N/mm", 1e3), ("N/cm", 1e2)];
     /// A damping coefficient, N s/m.
-    Damping, "damping", [("Ns/m", 1.0), ("N s/m", 1.0), ("kg/s", 1.0)];
+    Damping, "damping", 1e9, [("Ns/m", 1.0), ("N s/m", 1.0), ("kg/s", 1.0)];
     /// An angular stiffness, N m/rad.
-    AngularStiffness, "angular stiffness", [("N m/rad", 1.0), ("Nm/rad", 1.0), ("N mm/rad", 1e-3), ("N m/deg", 1.0 / DEGREE)];
+    AngularStiffness, "angular stiffness", 1e12, [("N m/rad", 1.0), ("Nm/rad", 1.0), ("N mm/rad", 1e-3), ("N m/deg", 1.0 / DEGREE)];
     /// An angular damping coefficient, N m s/rad.
-    AngularDamping, "angular damping", [("N m s/rad", 1.0), ("Nms/rad", 1.0), ("N mm s/rad", 1e-3)];
+    AngularDamping, "angular damping", 1e9, [("N m s/rad", 1.0), ("Nms/rad", 1.0), ("N mm s/rad", 1e-3)];
     /// A force, N.
-    Force, "force", [("N", 1.0), ("mN", 1e-3), ("kN", 1e3)];
+    Force, "force", 1e9, [("N", 1.0), ("mN", 1e-3), ("kN", 1e3)];
     /// A torque, N m.
-    Torque, "torque", [("N m", 1.0), ("Nm", 1.0), ("N mm", 1e-3), ("mN m", 1e-3)];
+    Torque, "torque", 1e9, [("N m", 1.0), ("Nm", 1.0), ("N mm", 1e-3), ("mN m", 1e-3)];
     /// An impulse, N s.
-    Impulse, "impulse", [("N s", 1.0), ("Ns", 1.0), ("mN s", 1e-3)];
+    Impulse, "impulse", 1e9, [("N s", 1.0), ("Ns", 1.0), ("mN s", 1e-3)];
     /// A moment of inertia, kg m².
-    Inertia, "moment of inertia", [("kg m2", 1.0), ("g cm2", 1e-7)];
+    Inertia, "moment of inertia", 1e10, [("kg m2", 1.0), ("g cm2", 1e-7)];
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use ebur128::{EbuR128, Mode};
 
 use super::atomic_file::AtomicFile;
-use soffio_exhibit::{Exhibit, SIDECAR};
+use soffio_exhibit::{Exhibit, SIDECAR, files};
 use soffio_math::{amplitude_to_db, db_to_amplitude};
 use soffio_simulation::{SAMPLE_RATE, SAMPLES_PER_STEP, STEPS_PER_SECOND, Script, Settings, Simulation, StepInput};
 use soffio_sound::{PROGRAMME, ReverbSpec, SoundCommand, Synth};
@@ -145,7 +145,7 @@ fn scene(exhibit: &Arc<Exhibit>, settings: Settings) -> Result<Vec<Vec<SoundComm
 pub fn write(folder: &Path, level_db: f64) -> Result<(), String> {
     let path = folder.join(SIDECAR);
     let says = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
-    let text = std::fs::read_to_string(&path).map_err(|e| says(&e))?;
+    let text = files::read_text(&path, files::MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?;
     let mut document: toml_edit::DocumentMut = text.parse().map_err(|e| says(&e))?;
     let scene = document.entry("scene").or_insert_with(toml_edit::table);
     let Some(scene) = scene.as_table_like_mut() else { return Err(says(&"[scene] is no table")) };

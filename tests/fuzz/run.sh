@@ -4,9 +4,9 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 
-seconds=${1:-520}
+seconds=${1:-280}
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(sidecar model recording timbre config script scene)
+[ ${#targets[@]} -gt 0 ] || targets=(sidecar model recording timbre config script scene drawing labels record order osc serial)
 if ! cargo +nightly fuzz --version >/dev/null 2>&1; then
     echo "needs a nightly toolchain and cargo-fuzz: rustup toolchain install nightly && cargo install cargo-fuzz" >&2
     exit 1

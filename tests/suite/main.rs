@@ -52,5 +52,6 @@ mod sound;
 mod steel_fish;
 mod systems;
 mod three_motions;
+mod untrusted;
 mod walker;
 mod wind;

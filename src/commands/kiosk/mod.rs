@@ -22,6 +22,7 @@ use soffio_kiosk::live::{Options, Report};
 use soffio_kiosk::staff::log::Log;
 use soffio_kiosk::venue::catalog::{self, ExhibitSource};
 use soffio_kiosk::venue::site::{Overrides, Site};
+use soffio_kiosk::venue::trial;
 use soffio_kiosk::window::{self, Ended, Launch, Missing};
 use soffio_offline::feed::WavFeed;
 use soffio_offline::{demo, wav};
@@ -121,6 +122,10 @@ pub fn run(args: Args) -> Outcome {
     }
     let overrides = Overrides { safe: begun.safe, ..overrides };
     let config = overrides.apply(config);
+
+    if let Ok(program) = std::env::current_exe() {
+        trial::enable(program);
+    }
 
     let built_in = if begun.shows_built_in { supervised::built_in() } else { None };
     let (exhibit, places) = match &built_in {

@@ -22,6 +22,8 @@ use std::time::Duration;
 
 pub use driver::Reading;
 use driver::{Driver, Slot};
+pub use osc::enter_packet;
+pub use serial::Lines;
 pub use soffio_config::{ControllerKind, ControllerSettings};
 
 /// The first pause before a driver is opened again, and the longest, s.

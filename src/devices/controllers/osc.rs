@@ -48,20 +48,19 @@ impl Driver for Osc {
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => return Ok(()),
             Err(error) => return Err(error.to_string()),
         };
-        let understood = match rosc::decoder::decode_udp(&self.packet[..length]) {
-            Ok((_, packet)) => {
-                let mut understood = false;
-                slot.update(|reading| understood = enter(reading, &packet, DEPTH));
-                understood
-            }
-            Err(_) => false,
-        };
+        let mut understood = false;
+        slot.update(|reading| understood = enter_packet(reading, &self.packet[..length]));
         if !understood && !self.puzzled {
             self.puzzled = true;
             tracing::warn!("osc: a packet says none of /breath, /aim, /hold with their numbers; it is left out");
         }
         Ok(())
     }
+}
+
+/// Enters the messages of a packet's bytes. Returns whether all were understood.
+pub fn enter_packet(reading: &mut Reading, bytes: &[u8]) -> bool {
+    rosc::decoder::decode_udp(bytes).is_ok_and(|(_, packet)| enter(reading, &packet, DEPTH))
 }
 
 /// Enters all messages of a packet. Returns whether all were understood.

@@ -57,9 +57,9 @@ impl Driver for Serial {
     }
 }
 
-/// Line parser.
-#[derive(Default)]
-struct Lines {
+/// Parser of the lines that a sensor sends.
+#[derive(Debug, Default)]
+pub struct Lines {
     line: Vec<u8>,
     /// Whether the line is too long and is ignored.
     spoilt: bool,
@@ -67,7 +67,7 @@ struct Lines {
 
 impl Lines {
     /// The number of a line that ends with this byte, if it is valid.
-    fn push(&mut self, byte: u8) -> Option<f64> {
+    pub fn push(&mut self, byte: u8) -> Option<f64> {
         if byte != b'\n' {
             self.spoilt |= self.line.len() == LINE;
             if !self.spoilt {

@@ -57,6 +57,12 @@ fn signed(value: f32, full: f32, normalized: bool) -> f32 {
     if normalized { (value / full).max(-1.0) } else { value }
 }
 
+/// Bytes of an accessor when decoded, by its stated count.
+pub fn decoded_bytes(accessor: &gltf::Accessor) -> u64 {
+    let element = accessor.dimensions().multiplicity() * size_of::<f32>();
+    (accessor.count() as u64).saturating_mul(element as u64)
+}
+
 /// The number of elements, within the limits.
 fn count_of(accessor: &gltf::Accessor, lane_bytes: usize) -> Result<usize, ModelError> {
     let count = accessor.count();

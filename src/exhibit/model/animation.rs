@@ -63,6 +63,15 @@ pub enum Track {
     Weights(Vec<Vec<f64>>),
 }
 
+/// Bytes of a channel when decoded, by the stated counts: single precision, then double precision; a list of weights for each key
+/// has a header.
+pub(super) fn decoded_bytes(source: &gltf::animation::Channel) -> u64 {
+    const HEADER: u64 = size_of::<Vec<f64>>() as u64;
+    let sampler = source.sampler();
+    let numbers = [sampler.input(), sampler.output()].iter().map(accessor::decoded_bytes).fold(0, u64::saturating_add);
+    numbers.saturating_mul(3).saturating_add((sampler.output().count() as u64).saturating_mul(HEADER))
+}
+
 /// Decodes a channel.
 pub(super) fn channel(source: &gltf::animation::Channel, buffers: &[Vec<u8>]) -> Result<Channel, accessor::ModelError> {
     let (target, sampler) = (source.target(), source.sampler());

@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::super::budget::Excess;
 use super::super::codes::{self, Code};
 use super::super::diagnostic::Diagnostic;
 
@@ -64,6 +65,8 @@ pub enum Cause {
     Size,
     /// More than this program reads.
     Limit,
+    /// More than an exhibit may cost.
+    Budget,
     /// Contradicts glTF 2.0 without effect here: a warning.
     Harmless,
     /// Valid, and not shown: a warning.
@@ -73,7 +76,7 @@ pub enum Cause {
 impl Cause {
     /// Every cause.
     #[cfg(test)]
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 28] = [
         Self::Truncated,
         Self::NotGltf,
         Self::Version,
@@ -99,6 +102,7 @@ impl Cause {
         Self::Uri,
         Self::Size,
         Self::Limit,
+        Self::Budget,
         Self::Harmless,
         Self::Skipped,
     ];
@@ -113,6 +117,7 @@ impl Cause {
             Self::Image => codes::IMAGE,
             Self::Size => codes::MODEL_SIZE,
             Self::Limit => codes::MODEL_LIMIT,
+            Self::Budget => codes::BUDGET,
             Self::Harmless => codes::MODEL_FORM,
             Self::Skipped => codes::SKIPPED,
             _ => codes::BROKEN_MODEL,
@@ -152,6 +157,7 @@ impl Cause {
             Self::Uri => "put the file beside the model and give its path from there; or export as one .glb",
             Self::Size => "lengths are in metres: scale the model from millimetres or inches, apply, and export again",
             Self::Limit => "simplify the model: gltf-transform simplify in.glb out.glb",
+            Self::Budget => "make the model smaller: gltf-transform optimize in.glb out.glb --texture-size 2048",
             Self::Harmless => "it makes no difference here; other programs may refuse the file",
             Self::Skipped => "change it in the program that made the model if it should be seen",
         }
@@ -180,6 +186,11 @@ impl Fault {
     /// A fault of the whole file.
     pub fn new(cause: Cause, what: impl fmt::Display) -> Self {
         Self::at(cause, "", what)
+    }
+
+    /// What is at a place costs too much.
+    pub fn excess(excess: Excess, place: impl fmt::Display) -> Self {
+        Self::at(Cause::Budget, place, excess).remedy(excess.help())
     }
 
     /// Sets a remedy of its own.

@@ -10,15 +10,16 @@ use std::sync::Arc;
 use gltf::json;
 use serde_json::Value;
 
+use super::super::budget::{Budget, Excess};
 use super::super::diagnostic::{Diagnostic, Report};
-use super::super::paths;
+use super::super::files;
 use super::check::tables::{GREATEST_FOV, LEAST_FOV};
 use super::fault::{Cause, Fault, Faults};
 use super::primitive::{self, decode, is_drawn};
 use super::sources::{MAX_FILE_BYTES, Sources};
 use super::{
-    Animation, Camera, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, animation, check, data, deform,
-    glb, material, nodes, size,
+    Animation, Camera, Light, LightKind, Mesh, Model, Morph, Node, Primitive, Skin, accessor, animation, check, data,
+    deform, glb, material, nodes, size,
 };
 use soffio_math::DVec3;
 
@@ -84,23 +85,33 @@ pub fn load(path: &Path) -> Result<Model, Report> {
 /// # Errors
 /// All problems of the file.
 pub fn import(path: &Path) -> Result<Imported, Report> {
-    let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
-    let reader =
-        Reader { name, folder: path.parent().map(PathBuf::from).unwrap_or_default(), faults: Faults::default() };
-    let bytes = paths::read_limited(path, MAX_FILE_BYTES).map_err(Report::single)?;
-    reader.import(&bytes)
+    import_within(path, &Budget::default())
 }
 
-struct Reader {
+/// As [`import`], within the rest of a budget.
+///
+/// # Errors
+/// All problems of the file.
+pub fn import_within(path: &Path, budget: &Budget) -> Result<Imported, Report> {
+    let name = path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned());
+    let folder = path.parent().map(PathBuf::from).unwrap_or_default();
+    let file = files::open_regular(path).and_then(|file| file.within(MAX_FILE_BYTES)).map_err(Report::single)?;
+    budget.charge(file.size()).map_err(|excess| Report::single(excess.diagnostic(&name)))?;
+    let bytes = file.read().map_err(Report::single)?;
+    Reader { name, folder, faults: Faults::default(), budget }.import(&bytes)
+}
+
+struct Reader<'a> {
     name: String,
     folder: PathBuf,
     faults: Faults,
+    budget: &'a Budget,
 }
 
 /// A value, or all problems so far.
 type Outcome<T> = Result<T, Vec<Diagnostic>>;
 
-impl Reader {
+impl Reader<'_> {
     fn refused(&self, fault: &Fault) -> Vec<Diagnostic> {
         vec![fault.diagnostic(&self.name)]
     }
@@ -123,14 +134,17 @@ impl Reader {
 
     fn read(&mut self, bytes: &[u8]) -> Outcome<(Model, Value)> {
         let parts = glb::split(bytes, &mut self.faults).map_err(|fault| self.refused(&fault))?;
+        let tree = document_bytes(parts.json);
+        self.budget.charge(tree).map_err(|excess| self.exceeded(excess, "the JSON"))?;
         let mut root: Value = serde_json::from_slice(parts.json).map_err(|error| self.refused(&syntax(&error)))?;
         check::document(&mut root, &mut self.faults);
         self.extensions(&root);
         self.sound()?;
         let document = represent(&root).map_err(|fault| self.refused(&fault))?;
         let (name, folder) = (self.name.clone(), self.folder.clone());
-        let sources = Sources { file: &name, folder: &folder, root: &root };
+        let sources = Sources { file: &name, folder: &folder, root: &root, budget: self.budget };
         let buffers = sources.buffers(parts.bin, &mut self.faults).map_err(|problem| vec![problem])?;
+        self.accessors(&document)?;
         data::check(&document, &buffers, &mut self.faults);
         self.sound()?;
         let (mut nodes, roots) = nodes::nodes(&document).map_err(|fault| self.refused(&fault))?;
@@ -164,6 +178,26 @@ impl Reader {
         Ok((model, root))
     }
 
+    /// A part of the file costs too much.
+    fn exceeded(&self, excess: Excess, place: impl std::fmt::Display) -> Vec<Diagnostic> {
+        self.refused(&Fault::excess(excess, place))
+    }
+
+    /// Is there memory to check each accessor, and time? The check of weights decodes two at once.
+    fn accessors(&self, document: &gltf::Document) -> Outcome<()> {
+        for accessor in document.accessors() {
+            let decoded = 2 * accessor::decoded_bytes(&accessor);
+            let place = format_args!("accessors[{}]", accessor.index());
+            self.budget.charge_briefly(decoded).map_err(|excess| self.exceeded(excess, place))?;
+        }
+        Ok(())
+    }
+
+    /// Charges a primitive that is about to be decoded.
+    fn charge_primitive(&self, primitive: &gltf::Primitive, place: impl std::fmt::Display) -> Outcome<()> {
+        self.budget.charge(primitive::decoded_bytes(primitive)).map_err(|excess| self.exceeded(excess, place))
+    }
+
     /// Refuses required extensions that are not supported.
     fn extensions(&mut self, root: &Value) {
         for (index, name) in root["extensionsRequired"].as_array().into_iter().flatten().enumerate() {
@@ -193,6 +227,7 @@ impl Reader {
                     self.warn(&place, format_args!("\"{name}\" has no positions: it is not drawn"));
                     continue;
                 }
+                self.charge_primitive(&primitive, &place)?;
                 let primitive = decode(&primitive, buffers, |_| Ok(()))
                     .map_err(|fault| self.refused(&fault.within(format_args!("{place} of \"{name}\""))))?;
                 triangles += primitive.indices.len() / 3;
@@ -233,6 +268,12 @@ impl Reader {
                 let place = format_args!("meshes[{}].primitives.targets", mesh.index());
                 return Err(self.refused(&Fault::at(Cause::Count, place, what)));
             }
+            let at = format!("nodes[{}]", node.index());
+            for primitive in mesh.primitives().filter(is_drawn) {
+                // As at rest, and as it is bound.
+                self.charge_primitive(&primitive, &at)?;
+                self.charge_primitive(&primitive, &at)?;
+            }
             let primitives = mesh.primitives().filter(is_drawn).map(|primitive| {
                 decode(&primitive, buffers, |out| deform::deform(&node, &primitive, nodes, buffers, out))
             });
@@ -272,6 +313,8 @@ impl Reader {
             for (index, channel) in source.channels().enumerate() {
                 let place =
                     format_args!("animations[{}].channels[{index}] (animation \"{name}\")", source.index()).to_string();
+                let cost = animation::decoded_bytes(&channel);
+                self.budget.charge(cost).map_err(|excess| self.exceeded(excess, &place))?;
                 let decoded = animation::channel(&channel, buffers);
                 channels.push(decoded.map_err(|fault| self.refused(&fault.within(place)))?);
             }
@@ -298,6 +341,16 @@ impl Reader {
             }
         }
     }
+}
+
+/// Most memory of a document, bytes: its text and three trees of it (as values, a copy to read the types from, and the types). An
+/// object of one key takes 0.7 KB as a value and up to 1 KB as a type, any other value at most 50 bytes in each.
+fn document_bytes(json: &[u8]) -> u64 {
+    const TEXTS: u64 = 4;
+    const OBJECT: u64 = 2400;
+    const VALUE: u64 = 150;
+    let count = |of: &[u8]| json.iter().filter(|byte| of.contains(byte)).count() as u64;
+    TEXTS * json.len() as u64 + OBJECT * count(b"{") + VALUE * count(b",[")
 }
 
 /// What is wrong with a text that is not JSON.
@@ -363,6 +416,7 @@ pub(super) mod tests {
     /// Reads the bytes of a model's file, in a folder without others.
     pub fn read(bytes: &[u8]) -> Result<Imported, Report> {
         let folder = PathBuf::from("no/such/folder");
-        Reader { name: "model.glb".into(), folder, faults: Faults::default() }.import(bytes)
+        let budget = Budget::default();
+        Reader { name: "model.glb".into(), folder, faults: Faults::default(), budget: &budget }.import(bytes)
     }
 }

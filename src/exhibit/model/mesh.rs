@@ -11,6 +11,22 @@ pub struct Mesh {
     pub primitives: Vec<Primitive>,
 }
 
+impl Mesh {
+    /// Memory of its vertices and indices, bytes.
+    pub fn bytes(&self) -> u64 {
+        let bytes = |p: &Primitive| {
+            size_of_val(&*p.positions)
+                + size_of_val(&*p.normals)
+                + size_of_val(&*p.tangents)
+                + size_of_val(&*p.uvs)
+                + size_of_val(&*p.second_uvs)
+                + size_of_val(&*p.colors)
+                + size_of_val(&*p.indices)
+        };
+        self.primitives.iter().map(|primitive| bytes(primitive) as u64).sum()
+    }
+}
+
 /// A skinned mesh: it follows joints (glTF 2.0, 3.7.3).
 #[derive(Clone, Debug, Default)]
 pub struct Skin {

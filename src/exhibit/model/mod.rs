@@ -22,7 +22,7 @@ mod tests;
 
 pub use animation::{Animation, Channel, Curve, Track};
 pub use appearance::{AlphaMode, Appearance, Details, Levels, Sampler, ScaledTexture, TextureUse, Wrap};
-pub use import::{Imported, import, load};
+pub use import::{Imported, import, import_within, load};
 pub use material::FINISH;
 pub use mesh::{Influences, Mesh, Morph, MorphTarget, Primitive, Skin};
 pub use scene::{Camera, Image, Light, LightKind, Model, Node};

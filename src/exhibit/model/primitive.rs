@@ -22,6 +22,29 @@ pub fn targets(node: &gltf::Node) -> usize {
     first.map_or(0, |primitive| primitive.morph_targets().take(MAX_TARGETS).count())
 }
 
+/// Bytes of a primitive when decoded, by the stated counts of its accessors. Twice: the dressed model is a copy of the loaded one.
+pub fn decoded_bytes(primitive: &gltf::Primitive) -> u64 {
+    /// Models that exist at once.
+    const MODELS: u64 = 2;
+    /// Bytes of a vertex at most, without morph targets: all lists of [`Primitive`] but the indices.
+    const VERTEX: u64 = 12 + 12 + 16 + 8 + 8 + 16 + 32;
+    let Some(positions) = primitive.get(&Semantic::Positions) else { return 0 };
+    let lists = primitive.attributes().map(|(_, list)| accessor::decoded_bytes(&list)).fold(0, u64::saturating_add);
+    let targets = primitive
+        .morph_targets()
+        .take(MAX_TARGETS)
+        .flat_map(|target| [target.positions(), target.normals(), target.tangents()].into_iter().flatten());
+    let targets = targets.map(|list| accessor::decoded_bytes(&list)).fold(0, u64::saturating_add);
+    let listed = primitive.indices().map_or(positions.count(), |indices| indices.count()) as u64;
+    // A strip has nearly as many triangles as indices.
+    let corners = if primitive.mode() == Mode::Triangles { listed } else { listed.saturating_mul(3) };
+    // Without normals every corner becomes a vertex of its own.
+    let flat = primitive.get(&Semantic::Normals).is_none();
+    let own = if flat { corners.saturating_mul(VERTEX) } else { 0 };
+    let indices = corners.saturating_mul(size_of::<u32>() as u64);
+    MODELS.saturating_mul(lists.saturating_add(targets).saturating_add(own).saturating_add(indices))
+}
+
 /// Decodes a primitive; `deform` can change it before flat normals are made. Without positions it is empty (glTF 2.0, section
 /// 3.7.2.1: it is not drawn).
 ///

@@ -1,11 +1,15 @@
 //! Bytes that a model refers to: buffers and images in the binary chunk, in data URIs (RFC 2397), or in files beside it.
 
+use std::borrow::Cow;
+use std::io::Cursor;
 use std::path::Path;
 
+use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader};
 use serde_json::Value;
 
+use super::super::budget::Budget;
 use super::super::diagnostic::Diagnostic;
-use super::super::paths;
+use super::super::{files, paths};
 use super::fault::{Cause, Fault, Faults};
 use super::scene::Image;
 
@@ -13,8 +17,8 @@ use super::scene::Image;
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// Most pixels of one image.
 pub const MAX_IMAGE_PIXELS: u64 = 8192 * 8192;
-/// Most pixels of all images together: 1 GiB when decoded.
-pub const MAX_PIXELS: u64 = 4 * MAX_IMAGE_PIXELS;
+/// Bytes of a decoded pixel, RGBA.
+const PIXEL_BYTES: u64 = 4;
 /// Media types of images that are read.
 const READ: [&str; 2] = ["image/png", "image/jpeg"];
 /// Remedy for images that are too large.
@@ -28,6 +32,17 @@ pub struct Sources<'a> {
     pub folder: &'a Path,
     /// Its document, checked.
     pub root: &'a Value,
+    /// What the exhibit may cost.
+    pub budget: &'a Budget,
+}
+
+/// What a URI leads to.
+struct Read {
+    /// Media type of a data URI.
+    media: Option<String>,
+    /// Size of all of it, bytes.
+    size: u64,
+    bytes: Vec<u8>,
 }
 
 /// The media type of a data URI and its bytes; `None` where it is none that is well formed.
@@ -106,11 +121,21 @@ fn media_of(bytes: &[u8]) -> Option<&'static str> {
 }
 
 impl Sources<'_> {
-    /// Bytes of a URI, with its media type if it is a data URI.
-    fn read(&self, uri: &str, place: &str) -> Result<(Option<String>, Vec<u8>), Diagnostic> {
+    /// Charges memory for what is at a place.
+    fn charge(&self, bytes: u64, place: &str) -> Result<(), Diagnostic> {
+        self.budget.charge(bytes).map_err(|excess| Fault::excess(excess, place).diagnostic(self.file))
+    }
+
+    /// Bytes of a URI, with its media type if it is a data URI. Of a file, at most the first `most` bytes are read, once
+    /// they are charged; the result has the size of the whole file.
+    fn read(&self, uri: &str, place: &str, most: u64) -> Result<Read, Diagnostic> {
         if uri.starts_with("data:") {
+            // Unescaped and decoded.
+            self.charge(2 * uri.len() as u64, place)?;
             return match data_uri(uri) {
-                Some((media, bytes)) => Ok((Some(media.to_ascii_lowercase()), bytes)),
+                Some((media, bytes)) => {
+                    Ok(Read { media: Some(media.to_ascii_lowercase()), size: bytes.len() as u64, bytes })
+                }
                 None => Err(Fault::at(Cause::Uri, place, "is a data URI that cannot be decoded").diagnostic(self.file)),
             };
         }
@@ -123,14 +148,18 @@ impl Sources<'_> {
             let what = format_args!("is \"{uri}\", which is no path of a file");
             return Err(Fault::at(Cause::Uri, place, what).diagnostic(self.file));
         }
-        paths::read_limited(&path, MAX_FILE_BYTES).map(|bytes| (None, bytes)).map_err(named)
+        let file = files::open_regular(&path).and_then(|file| file.within(MAX_FILE_BYTES)).map_err(named)?;
+        let size = file.size();
+        self.charge(size.min(most), place)?;
+        Ok(Read { media: None, size, bytes: file.read_first(most).map_err(named)? })
     }
 
     /// Bytes of each buffer; empty where the file does not have them.
     ///
     /// # Errors
-    /// A file that cannot be read, or that is shorter than the model says.
+    /// A file that cannot be read, or that is shorter than the model says; buffers beyond the budget.
     pub fn buffers(&self, bin: Option<&[u8]>, faults: &mut Faults) -> Result<Vec<Vec<u8>>, Diagnostic> {
+        self.announced()?;
         let mut buffers = Vec::new();
         for (index, buffer) in self.root["buffers"].as_array().into_iter().flatten().enumerate() {
             let length = buffer["byteLength"].as_u64().unwrap_or(0) as usize;
@@ -138,31 +167,39 @@ impl Sources<'_> {
             let uri = buffer["uri"].as_str();
             let reads = |view: &Value| view["buffer"].as_u64() == Some(index as u64);
             let unread = !self.root["bufferViews"].as_array().into_iter().flatten().any(reads);
-            let (bytes, from) = match uri {
+            let mut no_data = false;
+            let bytes = match uri {
                 Some(uri) if is_address(uri) && unread => {
                     let what = format_args!("is \"{uri}\", an address on a network, which is not opened");
                     faults.add(Cause::Skipped, format_args!("{place}.uri"), what);
-                    (Vec::new(), "")
+                    Vec::new()
                 }
                 Some(uri) => {
-                    let (media, bytes) = self.read(uri, &format!("{place}.uri"))?;
+                    let Read { media, size, bytes } = self.read(uri, &format!("{place}.uri"), length as u64)?;
+                    if size < length as u64 {
+                        let from = if media.is_some() { "its data URI" } else { "its file" };
+                        return Err(self.short(&place, length, from, size));
+                    }
                     let expected = ["application/octet-stream", "application/gltf-buffer"];
                     if let Some(media) = media.filter(|media| !expected.contains(&media.as_str())) {
                         let what = format_args!("is a data URI of \"{media}\"; a buffer's is application/octet-stream");
                         faults.add(Cause::Harmless, format_args!("{place}.uri"), what);
                     }
-                    (bytes, if uri.starts_with("data:") { "its data URI" } else { "its file" })
+                    bytes
                 }
-                None if index == 0 && bin.is_some() => (bin.unwrap_or_default().to_vec(), "the binary chunk"),
-                None => (Vec::new(), ""),
+                None if let Some(bin) = bin.filter(|_| index == 0) => {
+                    if bin.len() < length {
+                        return Err(self.short(&place, length, "the binary chunk", bin.len() as u64));
+                    }
+                    self.charge(bin.len() as u64, &place)?;
+                    bin.to_vec()
+                }
+                None => {
+                    no_data = true;
+                    Vec::new()
+                }
             };
-            if bytes.len() < length && !from.is_empty() {
-                let what = format_args!("is {length}, but {from} has {} bytes", bytes.len());
-                return Err(
-                    Fault::at(Cause::ShortBuffer, format_args!("{place}.byteLength"), what).diagnostic(self.file)
-                );
-            }
-            if from.is_empty() && uri.is_none() {
+            if no_data {
                 faults.add(
                     Cause::Skipped,
                     &place,
@@ -172,6 +209,23 @@ impl Sources<'_> {
             buffers.push(bytes);
         }
         Ok(buffers)
+    }
+
+    /// Do all buffers together fit by their stated lengths? Asked before the first is read.
+    fn announced(&self) -> Result<(), Diagnostic> {
+        let mut all = 0_u64;
+        for (index, buffer) in self.root["buffers"].as_array().into_iter().flatten().enumerate() {
+            all = all.saturating_add(buffer["byteLength"].as_u64().filter(|_| buffer["uri"].is_string()).unwrap_or(0));
+            let place = format!("buffers[{index}].byteLength");
+            self.budget.charge_briefly(all).map_err(|excess| Fault::excess(excess, place).diagnostic(self.file))?;
+        }
+        Ok(())
+    }
+
+    /// A buffer has fewer bytes than it states.
+    fn short(&self, place: &str, length: usize, from: &str, has: u64) -> Diagnostic {
+        let what = format_args!("is {length}, but {from} has {has} bytes");
+        Fault::at(Cause::ShortBuffer, format_args!("{place}.byteLength"), what).diagnostic(self.file)
     }
 
     /// The decoded images. One that no texture uses may be of another format: then it is a white pixel.
@@ -184,10 +238,10 @@ impl Sources<'_> {
         for source in self.root["textures"].as_array().into_iter().flatten().filter_map(|t| t["source"].as_u64()) {
             used[source as usize] = true;
         }
-        let (mut images, mut pixels) = (Vec::new(), 0);
+        let mut images = Vec::new();
         for (index, image) in list.iter().enumerate() {
             let place = format!("images[{index}]");
-            match self.image(image, &place, used[index], buffers, &mut pixels, faults)? {
+            match self.image(image, &place, used[index], buffers, faults)? {
                 Ok(image) => images.push(image),
                 Err(fault) if fault.cause != Cause::Skipped => return Err(fault.diagnostic(self.file)),
                 Err(fault) => {
@@ -205,13 +259,15 @@ impl Sources<'_> {
         place: &str,
         used: bool,
         buffers: &[Vec<u8>],
-        pixels: &mut u64,
         faults: &mut Faults,
     ) -> Result<Result<Image, Fault>, Diagnostic> {
         let stated = image["mimeType"].as_str().map(str::to_owned);
         let (media, bytes) = match image["uri"].as_str() {
-            Some(uri) => self.read(uri, &format!("{place}.uri"))?,
-            None => (None, view(self.root, image, buffers).to_vec()),
+            Some(uri) => {
+                let Read { media, bytes, .. } = self.read(uri, &format!("{place}.uri"), MAX_FILE_BYTES)?;
+                (media, Cow::Owned(bytes))
+            }
+            None => (None, Cow::Borrowed(view(self.root, image, buffers))),
         };
         // Where nothing says that it should be readable, it may be of a format for other programs.
         let readable = [&stated, &media].into_iter().flatten().any(|kind| READ.contains(&kind.as_str()));
@@ -227,27 +283,47 @@ impl Sources<'_> {
                 faults.add(Cause::Harmless, place, what);
             }
         }
-        let open = || image::ImageReader::new(std::io::Cursor::new(&bytes)).with_guessed_format();
-        // Check the size first: a small file can claim an image that fills the memory.
-        let size = open().map_err(image::ImageError::from).and_then(image::ImageReader::into_dimensions);
-        let (width, height) = match size {
-            Ok(size) => size,
+        // The header comes first: a small file can claim an image that fills the memory.
+        let reader = ImageReader::new(Cursor::new(&bytes)).with_guessed_format();
+        let reader = reader.map_err(image::ImageError::from);
+        let format = reader.as_ref().ok().and_then(ImageReader::format);
+        let decoder = match reader.and_then(ImageReader::into_decoder) {
+            Ok(decoder) => decoder,
             Err(error) => return refused(format!("cannot be decoded: {error}")),
         };
+        let (width, height) = decoder.dimensions();
         if width == 0 || height == 0 {
             return refused(format!("is {width} × {height} pixels"));
         }
         let size = u64::from(width) * u64::from(height);
-        *pixels += size;
-        if size > MAX_IMAGE_PIXELS || *pixels > MAX_PIXELS {
-            let what = format_args!("is {width} × {height}; the limit is 8192 × 8192, four of them in all");
+        if size > MAX_IMAGE_PIXELS {
+            let what = format_args!("is {width} × {height}; the limit is 8192 × 8192");
             return Ok(Err(Fault::at(Cause::Limit, place, what).remedy(SHRINK)));
         }
-        match open().map_err(image::ImageError::from).and_then(image::ImageReader::decode) {
+        let while_decoding = bytes.len() as u64 + decoding_bytes(&decoder, format);
+        let charged = self.budget.charge_briefly(while_decoding).and_then(|()| self.budget.charge(PIXEL_BYTES * size));
+        if let Err(excess) = charged {
+            let what = format_args!("is {width} × {height} pixels: {excess}");
+            return Ok(Err(Fault::at(Cause::Budget, place, what).remedy(excess.help())));
+        }
+        match DynamicImage::from_decoder(decoder) {
             Ok(decoded) => Ok(Ok(Image { width, height, rgba: decoded.into_rgba8().into_raw() })),
             Err(error) => refused(format!("cannot be decoded: {error}")),
         }
     }
+}
+
+/// Most memory while an image is decoded and converted to RGBA, bytes.
+fn decoding_bytes(decoder: &impl ImageDecoder, format: Option<ImageFormat>) -> u64 {
+    let decoded = decoder.total_bytes();
+    // A progressive JPEG keeps its coefficients, 16 bits each.
+    let coefficients = if format == Some(ImageFormat::Jpeg) { 2 * decoded } else { 0 };
+    let (width, height) = decoder.dimensions();
+    let converted = match decoder.color_type() {
+        ColorType::Rgba8 => 0,
+        _ => PIXEL_BYTES * u64::from(width) * u64::from(height),
+    };
+    decoded + coefficients.max(converted)
 }
 
 /// Bytes of an image's buffer view; empty where its buffer has none.

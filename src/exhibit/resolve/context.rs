@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::super::bodies::Material;
+use super::super::budget::Budget;
+use super::super::codes;
 use super::super::diagnostic::Diagnostic;
 use super::super::exhibit::Origin;
 use super::super::model::Model;
@@ -25,6 +27,8 @@ pub(super) struct Context<'a> {
     pub(super) folder: &'a Path,
     /// Timbres of the exhibit's own folder.
     pub(super) own_timbres: &'a OwnTimbres,
+    /// What the exhibit may cost.
+    pub(super) budget: &'a Budget,
     pub(super) problems: Vec<Diagnostic>,
     pub(super) origins: Vec<Origin>,
     pub(super) materials: Vec<Material>,
@@ -51,6 +55,7 @@ impl<'a> Context<'a> {
         model: &'a Model,
         folder: &'a Path,
         own_timbres: &'a OwnTimbres,
+        budget: &'a Budget,
     ) -> Self {
         let mut named: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
         for (index, node) in model.nodes.iter().enumerate() {
@@ -63,6 +68,7 @@ impl<'a> Context<'a> {
             named,
             folder,
             own_timbres,
+            budget,
             problems: Vec::new(),
             origins: Vec::new(),
             materials: Vec::new(),
@@ -80,6 +86,15 @@ impl<'a> Context<'a> {
     pub(super) fn report(&mut self, at: &str, mut problem: Diagnostic) {
         problem.location = Some(self.source.locate(self.source.span(at)));
         self.problems.push(problem);
+    }
+
+    /// Charges memory for `what` at a place of the sidecar, bytes. Returns whether it fits; the first excess is reported.
+    pub(super) fn afford(&mut self, bytes: u64, what: &str, at: &str) -> bool {
+        let Err(excess) = self.budget.charge(bytes) else { return true };
+        if !self.problems.iter().any(|problem| problem.code == codes::BUDGET.name) {
+            self.report(at, excess.diagnostic(what));
+        }
+        false
     }
 
     /// Records a value and its source: the sidecar where it is set there, else `otherwise`.

@@ -22,6 +22,8 @@ impl Context<'_> {
     /// The model with its finishes.
     pub(super) fn dressed(&mut self) -> Model {
         let (choices, chosen) = self.choices();
+        let shared = self.shared_mesh_bytes();
+        self.afford(shared, "dressing meshes that several nodes share", "/model");
         let mut model = self.model.clone();
         if self.problems.iter().any(Diagnostic::is_error) {
             return model;
@@ -35,6 +37,19 @@ impl Context<'_> {
             }
         }
         model
+    }
+
+    /// Memory of the copies of shared meshes: each node may be given another finish, bytes.
+    fn shared_mesh_bytes(&self) -> u64 {
+        let mut seen = vec![false; self.model.meshes.len()];
+        let again = |mesh: &usize| std::mem::replace(&mut seen[*mesh], true);
+        self.model
+            .nodes
+            .iter()
+            .filter_map(|node| node.mesh)
+            .filter(again)
+            .map(|mesh| self.model.meshes[mesh].bytes())
+            .sum()
     }
 
     /// What the sidecar chooses for each node, and where it does.

@@ -31,18 +31,19 @@ use std::path::{Path, PathBuf};
 
 use super::behavior::{BreathTuning, Motion, TouchPermission};
 use super::bodies::Body;
+use super::budget::Budget;
 use super::diagnostic::{Diagnostic, Report, quoted};
 use super::exhibit::Exhibit;
 use super::finish::{Choice, dress};
 use super::light::LightRig;
-use super::model::{Imported, Model, import};
+use super::model::{Imported, Model, import, import_within};
 use super::own_timbres::OwnTimbres;
 use super::paths::SIDECAR;
 use super::presentation::{Attract, Credit, Labels};
 use super::shape_tracks::shapes;
 use super::sidecar::{self, Sidecar};
 use super::source::SidecarText;
-use super::{codes, paths, schema};
+use super::{codes, files, paths, schema, thumbnail};
 use context::Context;
 use kinds::Joined;
 use nail_paths::add_path_nodes;
@@ -52,8 +53,8 @@ use soffio_multibody::dynamics::{Integrator, Solver};
 use soffio_multibody::procedural::PositionSolver;
 use sounds::Sounding;
 
-/// Most bytes of a sidecar.
-const MAX_SIDECAR_BYTES: u64 = 4 << 20;
+/// Memory of a parsed sidecar over its size: keys and numbers with their places.
+const PARSED: u64 = 200;
 /// Format version that this program reads.
 const VERSION: &str = "exhibit/1";
 /// Default gravity, m/s².
@@ -64,9 +65,17 @@ const GRAVITY: DVec3 = DVec3::new(0.0, -9.81, 0.0);
 /// # Errors
 /// All problems at once.
 pub fn load(folder: &Path) -> Result<Exhibit, Report> {
-    let path = folder.join(SIDECAR);
-    let bytes = paths::read_limited(&path, MAX_SIDECAR_BYTES).map_err(Report::single)?;
-    let file = path.display().to_string();
+    load_within(folder, &Budget::default())
+}
+
+/// As [`load`], within a budget.
+///
+/// # Errors
+/// All problems at once.
+pub fn load_within(folder: &Path, budget: &Budget) -> Result<Exhibit, Report> {
+    let bytes = files::read_sidecar(folder).map_err(Report::single)?;
+    let file = folder.join(SIDECAR).display().to_string();
+    budget.charge(PARSED * bytes.len() as u64).map_err(|excess| Report::single(excess.diagnostic(&file)))?;
     let text = String::from_utf8(bytes).map_err(|error| {
         Report::single(Diagnostic::new(codes::SYNTAX, format!("{file} is not UTF-8: {error}")).help("save it as UTF-8"))
     })?;
@@ -78,14 +87,18 @@ pub fn load(folder: &Path) -> Result<Exhibit, Report> {
         problem
     };
     let model_path = paths::inside(folder, &sidecar.model).map_err(|problem| alone(vec![placed(problem)]))?;
-    let Imported { mut model, warnings, .. } =
-        import(&model_path).map_err(|report| alone(report.diagnostics.into_iter().map(placed).collect()))?;
+    let Imported { mut model, warnings, .. } = import_within(&model_path, budget)
+        .map_err(|report| alone(report.diagnostics.into_iter().map(placed).collect()))?;
     add_path_nodes(&mut model, &sidecar);
-    let own = OwnTimbres::read(folder);
-    let mut context = Context::new(&source, &sidecar, &model, folder, &own);
+    let own = OwnTimbres::read(folder, budget);
+    let mut context = Context::new(&source, &sidecar, &model, folder, &own, budget);
+    context.problems.extend(thumbnail::check(folder, budget).err());
     context.problems.extend(warnings.into_iter().map(placed));
     context.problems.extend(source.old_names());
     let exhibit = context.resolve();
+    if !context.problems.iter().any(|problem| problem.code == codes::BUDGET.name) {
+        context.problems.extend(budget.check_time().err().map(|excess| excess.diagnostic(&file)));
+    }
     let mut report = alone(std::mem::take(&mut context.problems));
     report.absorb(own.into_report());
     if report.has_errors() {

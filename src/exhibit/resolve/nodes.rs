@@ -2,6 +2,7 @@
 
 use super::super::codes;
 use super::super::diagnostic::{Diagnostic, quoted, similar_names};
+use super::super::model::Primitive;
 use super::super::sidecar::Point;
 use super::super::source::natural_key;
 use super::context::Context;
@@ -240,10 +241,25 @@ impl Context<'_> {
         (!out.triangles.is_empty()).then_some(out)
     }
 
+    /// Memory of the triangles that a node shows, with the edges by which a mesh is tested for holes, bytes.
+    fn mesh_bytes(&self, node: usize) -> u64 {
+        const TRIANGLE: u64 = size_of::<[u32; 3]>() as u64 + 3 * 40;
+        let primitives = self.model.nodes[node].mesh.map_or(&[][..], |mesh| &self.model.meshes[mesh].primitives);
+        let bytes = |primitive: &Primitive| {
+            let (corners, triangles) = (primitive.positions.len() as u64, primitive.indices.len() as u64 / 3);
+            corners * size_of::<DVec3>() as u64 + triangles * TRIANGLE
+        };
+        primitives.iter().map(bytes).sum()
+    }
+
     /// The meshes at and below a node, in the frame of its body; reports a missing mesh.
     pub(super) fn mesh_of(&mut self, node: usize, at: &str, used_for: &str) -> Option<TriangleMesh> {
         let mut mesh = TriangleMesh::default();
         for part in self.subtree(node, &[]) {
+            let bytes = self.mesh_bytes(part);
+            if !self.afford(bytes, used_for, at) {
+                return None;
+            }
             if let Some(own) = self.node_mesh(part) {
                 mesh.append(&own);
             }

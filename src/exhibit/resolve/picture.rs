@@ -38,8 +38,15 @@ struct Grid {
 }
 
 impl Context<'_> {
-    /// Picture over the half extents (m) of a node and the nodes below it; `None` where they have no picture.
-    pub(super) fn surface_relief(&self, node: usize, frame: &ImpactFrame, half: [f64; 2]) -> Option<SurfaceRelief> {
+    /// Picture over the half extents (m) of a node and the nodes below it, for the sound at a place of the sidecar; `None` where
+    /// they have no picture.
+    pub(super) fn surface_relief(
+        &mut self,
+        node: usize,
+        frame: &ImpactFrame,
+        half: [f64; 2],
+        at: &str,
+    ) -> Option<SurfaceRelief> {
         let model = self.model;
         let mut pictured: Vec<Pictured> = Vec::new();
         for part in self.subtree(node, &[]) {
@@ -63,6 +70,9 @@ impl Context<'_> {
         let finest = pictured.iter().map(Pictured::pixel).filter(|pixel| *pixel > 0.0).reduce(f64::min)?;
         let [width, height] = half.map(|half| ((2.0 * half / finest).round() as usize).clamp(FEWEST, MOST));
         let count = width * height;
+        if !self.afford(count as u64 * size_of::<f32>() as u64, "the surface that is scraped", at) {
+            return None;
+        }
         let mut grid = Grid { width, height, values: vec![0.0; count], upward: vec![f64::NEG_INFINITY; count] };
         let to_node = model.nodes[node].world.inverse();
         for picture in &pictured {

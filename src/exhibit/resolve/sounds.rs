@@ -115,7 +115,7 @@ impl Context<'_> {
             material: sound_material,
             // Only sliding contacts read it.
             surface: (given.on == Trigger::Slide)
-                .then(|| self.surface_relief(node, &frame, size.half_extents))
+                .then(|| self.surface_relief(node, &frame, size.half_extents, at))
                 .flatten()
                 .map(|relief| SoundSurface::Relief(Arc::new(relief))),
             gain: db_to_amplitude(given.gain.0 + self.sidecar.scene.level.0),

@@ -8,12 +8,14 @@ use super::super::presentation::TAKE;
 use super::super::quantity::{Angle, Quantity};
 use super::super::source::join;
 use super::super::view::{MAX_PITCH_DOWN, MAX_PITCH_UP, MAX_YAW};
-use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, paths, sidecar};
+use super::super::{Attract, AttractAction, AttractStep, Credit, Label, Labels, codes, files, sidecar};
 use super::context::Context;
 use soffio_soundscape::breath::{Breath, HARDEST_M_S};
 
 /// Most bytes of a recorded breath.
 const MAX_WAV_BYTES: u64 = 64 << 20;
+/// Most memory of a recording over its size: the file, its samples and their mean over the channels.
+const SAMPLE_GROWTH: u64 = 9;
 /// Sample rate of a synthesised breath, Hz: the blow detector uses only frequencies below 6 kHz.
 const BREATH_RATE: u32 = 16_000;
 /// Silence before and after a synthesised breath, s, in which the detector measures its noise floor.
@@ -234,6 +236,10 @@ impl Context<'_> {
                 let [attack, hold, release] = seconds;
                 let (speed, quiet) = (strength * HARDEST_M_S, QUIET_AROUND);
                 let breath = Breath { lead_in: quiet, speed, attack, hold, release, lead_out: quiet, ..default };
+                let samples = (seconds.iter().sum::<f64>() + 2.0 * quiet) * f64::from(BREATH_RATE);
+                if !self.afford(samples as u64 * size_of::<f32>() as u64, "the breath", at) {
+                    return None;
+                }
                 Some((breath.recorded(BREATH_RATE, seed as u64).into(), BREATH_RATE))
             }
             _ => {
@@ -247,13 +253,21 @@ impl Context<'_> {
 
     /// Mono samples of a WAV in the exhibit folder.
     fn breath(&self, wav: &str) -> Result<(Arc<[f32]>, u32), Diagnostic> {
-        let bytes = paths::read_limited(&paths::inside(self.folder, wav)?, MAX_WAV_BYTES)?;
+        let bytes = {
+            let file = files::open_inside(self.folder, wav)?.within(MAX_WAV_BYTES)?;
+            // Samples of 8 bits become samples of 32 bits.
+            self.budget.charge(SAMPLE_GROWTH * file.size()).map_err(|excess| excess.diagnostic(wav))?;
+            file.read()?
+        };
         let broken = |error: hound::Error| {
             Diagnostic::new(codes::BREATH, format!("{wav} is not a WAV that can be read: {error}"))
                 .help("PCM of 8 to 32 bits or 32-bit float")
         };
         let mut reader = hound::WavReader::new(bytes.as_slice()).map_err(broken)?;
         let spec = reader.spec();
+        if !(1..=32).contains(&spec.bits_per_sample) {
+            return Err(broken(hound::Error::Unsupported));
+        }
         let samples: Result<Vec<f32>, _> = match spec.sample_format {
             hound::SampleFormat::Float => reader.samples::<f32>().collect(),
             hound::SampleFormat::Int => {

@@ -9,6 +9,9 @@ use soffio_math::{DVec3, pow};
 /// Segments of a smooth wire between two of its points.
 const SUBDIVISIONS: usize = 8;
 
+/// Memory of a point of a wire, bytes: of the wire, its wind surface and its colliders (a capsule with its material and name).
+const POINT_BYTES: u64 = 512;
+
 impl Context<'_> {
     /// All wires that could be resolved.
     pub(super) fn wires(&mut self) -> Vec<Wire> {
@@ -51,6 +54,10 @@ impl Context<'_> {
             self.record_origin(&format!("wire {}", given.name), "body", "the world".into(), "/-", &source);
         }
         let mut points = self.wire_points(node, &given.points, &format!("{at}/points"), &used_for)?;
+        let stored = points.len() * if given.smooth { SUBDIVISIONS } else { 1 };
+        if !self.afford(stored as u64 * POINT_BYTES, &used_for, &format!("{at}/points")) {
+            return None;
+        }
         points.dedup();
         if points.len() < 2 {
             let problem = Diagnostic::new(codes::WRONG_SHAPE, format!("{used_for} has no length"));

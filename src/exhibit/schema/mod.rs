@@ -1,5 +1,6 @@
 //! Schema check: validates the sidecar against the format's JSON Schema and locates every violation.
 
+mod bounds;
 pub mod validate;
 
 use schemars::transform::RecursiveTransform;
@@ -12,6 +13,9 @@ use super::renamed::{FileKind, add_old_names};
 use super::sidecar::Sidecar;
 use super::source::{SidecarText, join};
 use validate::{Kind, Problem};
+
+/// Most violations that are explained: each is looked for in the text, and names like those that are known are looked for.
+const MAX_EXPLAINED: usize = 1000;
 
 /// JSON Schema (draft 2020-12) of `exhibit.toml`.
 pub fn schema() -> Value {
@@ -38,8 +42,11 @@ pub fn schema_with_old_names() -> Value {
 pub fn check(source: &SidecarText) -> Vec<Diagnostic> {
     let schema = schema();
     let mut found = Vec::new();
-    for problem in validate::problems(&schema, &source.value) {
-        explain(source, &problem, &mut found);
+    for problem in validate::problems(&schema, &source.value).iter().take(MAX_EXPLAINED) {
+        explain(source, problem, &mut found);
+    }
+    if found.is_empty() {
+        found = bounds::check(source, &schema);
     }
     found
 }

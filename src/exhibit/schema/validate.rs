@@ -5,6 +5,8 @@
 //! `prefixItems`, `minItems`, `maxItems`, `minimum`, `maximum` and `pattern`. A test compares it with a complete
 //! implementation, and fails when the schema contains a keyword that is not in [`KEYWORDS`].
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fmt;
 
 use regex_lite::Regex;
@@ -116,6 +118,11 @@ pub fn problems<'a>(root: &'a Value, value: &'a Value) -> Vec<Problem<'a>> {
     let mut found = Vec::new();
     Instance { root, value, at: String::new() }.validate(root, &mut found);
     found
+}
+
+/// Does the value meet this part of a schema?
+pub fn fits(root: &Value, schema: &Value, value: &Value) -> bool {
+    Instance { root, value, at: String::new() }.problems_with(schema).is_empty()
 }
 
 /// A value with its JSON pointer.
@@ -291,7 +298,14 @@ fn is_of(value: &Value, name: &str) -> bool {
     }
 }
 
-/// Patterns come from the schema itself; one that cannot be read matches nothing, and a test fails.
+/// Patterns come from the schema itself; one that cannot be read matches nothing, and a test fails. Each is compiled once a thread:
+/// a sidecar may have thousands of texts.
 fn matches(pattern: &str, text: &str) -> bool {
-    Regex::new(pattern).is_ok_and(|pattern| pattern.is_match(text))
+    thread_local!(static COMPILED: RefCell<BTreeMap<String, Option<Regex>>> = const { RefCell::new(BTreeMap::new()) });
+    COMPILED.with_borrow_mut(|compiled| {
+        if !compiled.contains_key(pattern) {
+            compiled.insert(pattern.to_owned(), Regex::new(pattern).ok());
+        }
+        compiled.get(pattern).and_then(Option::as_ref).is_some_and(|pattern| pattern.is_match(text))
+    })
 }

@@ -20,7 +20,7 @@ use std::time::{Duration, Instant};
 
 use crate::fleet::metrics::{ContentVersion, Metrics, MetricsInput, text};
 use crate::fleet::mqtt::Mqtt;
-use crate::fleet::orders::Order;
+pub use crate::fleet::orders::Order;
 use crate::fleet::persisted::{Counters, PersistedState, RunPhase, SETTLED, StateStore};
 use crate::fleet::persisted_spread::PersistedSpread;
 use crate::fleet::quarantine::LoadMarker;
@@ -32,7 +32,7 @@ use crate::venue::state::VenueState;
 use crate::visitor::breath_time::BreathTime;
 use soffio_config::{Config, Day, TimeOfDay};
 use soffio_devices::audio::DeviceState;
-use soffio_exhibit::{Exhibit, SIDECAR};
+use soffio_exhibit::{Exhibit, files};
 
 /// Longest wait of the daily self-test for a moment without visitors, minutes.
 const SELF_TEST_WAITS_MIN: u16 = 60;
@@ -335,7 +335,7 @@ fn state(seen: &WindowStatus, fleet: &FleetState) -> serde_json::Value {
 
 /// Hash of the exhibit's sidecar as it is when the exhibit is shown.
 fn version(exhibit: &Exhibit) -> String {
-    let bytes = std::fs::read(exhibit.folder.join(SIDECAR)).unwrap_or_default();
+    let bytes = files::read_sidecar(&exhibit.folder).unwrap_or_default();
     format!("{:016x}", fnv1a(bytes.into_iter()))
 }
 

@@ -1,8 +1,8 @@
 //! systemd notifications: the kiosk is ready, its status, and the watchdog's keep-alive.
 //!
 //! A keep-alive is sent only if three things made progress since the last one: frames were presented (or offered to a display
-//! that is off), the simulation advanced, and the loudspeaker played, where there is one. Otherwise systemd restarts the unit
-//! after `WatchdogSec`. Without systemd nothing is sent.
+//! that is off), the simulation advanced, and the loudspeaker played, where there is one. None is sent while the loader of exhibits is
+//! stuck. Without keep-alives systemd restarts the unit after `WatchdogSec`. Without systemd nothing is sent.
 
 use std::time::{Duration, Instant};
 
@@ -18,6 +18,8 @@ pub struct Progress {
     pub due: Instant,
     /// Frames that the loudspeaker has played; `None` where there is none.
     pub played: Option<u64>,
+    /// Is the loader of exhibits stuck? Nothing but a restart frees its thread.
+    pub loader_stuck: bool,
 }
 
 impl Progress {
@@ -27,7 +29,7 @@ impl Progress {
             (Some(now), Some(then)) => now != then,
             _ => true,
         };
-        self.pictures > before.pictures && self.due > before.due && plays
+        self.pictures > before.pictures && self.due > before.due && plays && !self.loader_stuck
     }
 }
 
@@ -90,12 +92,13 @@ mod tests {
     fn only_where_pictures_motion_and_sound_all_went_on_is_it_alive() {
         let due = Instant::now();
         let later = due + Duration::from_millis(5);
-        let before = Progress { pictures: 3, due, played: Some(100) };
-        let good = Progress { pictures: 4, due: later, played: Some(200) };
+        let before = Progress { pictures: 3, due, played: Some(100), loader_stuck: false };
+        let good = Progress { pictures: 4, due: later, played: Some(200), loader_stuck: false };
         assert!(good.beyond(&before));
         assert!(!Progress { pictures: 3, ..good }.beyond(&before), "no picture");
         assert!(!Progress { due, ..good }.beyond(&before), "no motion");
         assert!(!Progress { played: Some(100), ..good }.beyond(&before), "no sound");
+        assert!(!Progress { loader_stuck: true, ..good }.beyond(&before), "no exhibit can be loaded");
         assert!(Progress { played: None, ..good }.beyond(&before), "the loudspeaker was pulled out");
         assert!(Progress { played: Some(0), ..good }.beyond(&Progress { played: None, ..before }), "a new one");
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use toml_edit::{Array, DocumentMut, Formatted, Item, Table, TableLike, Value};
 
+use soffio_exhibit::files::{self, MAX_SIDECAR_BYTES};
 use soffio_offline::atomic_file::{Readers, replace as replace_file};
 
 /// Tables of a sidecar whose numbers are no parameters of the exhibit: texts and the attract script.
@@ -253,7 +254,7 @@ impl Changes {
     /// # Errors
     /// The file cannot be read, changed or written; the message names it.
     pub fn make(&mut self, file: &Path, change: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
-        let before = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+        let before = files::read_text(file, MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?;
         self.replace(file, before, change)
     }
 
@@ -266,9 +267,9 @@ impl Changes {
         file: &Path,
         change: impl Fn(&str) -> Result<String, String>,
     ) -> Result<(), String> {
-        let before = match std::fs::read_to_string(file) {
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
-            read => read.map_err(|error| format!("{}: {error}", file.display()))?,
+        let before = match file.try_exists() {
+            Ok(false) => String::new(),
+            _ => files::read_text(file, MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?,
         };
         self.replace(file, before, change)
     }
@@ -301,7 +302,7 @@ impl Changes {
     /// The file has changed since, or cannot be written.
     pub fn undo(&mut self) -> Result<(), String> {
         let Some((file, before, after)) = self.done.pop_back() else { return Ok(()) };
-        let now = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", file.display()))?;
+        let now = files::read_text(&file, MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?;
         if now != after {
             return Err(format!("{}: somebody else has changed this file, so it stays as it is", file.display()));
         }

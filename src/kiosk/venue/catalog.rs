@@ -7,24 +7,25 @@
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
-use std::time::Duration;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
+use super::trial::Trials;
 use crate::fleet::quarantine::{LoadMarker, Quarantine};
 use soffio_config::OTHERS;
-use soffio_exhibit::{self as exhibit, Exhibit, Labels};
+use soffio_exhibit::{self as exhibit, Budget, Exhibit, Labels, Report, thumbnail};
 use soffio_render::{Baked, Lighting};
 
 /// Quiet time after the last change before an exhibit is loaded.
 pub const QUIET: Duration = Duration::from_millis(300);
-/// File name of an exhibit's picture, in its folder.
-pub const THUMBNAIL: &str = "thumbnail.png";
+/// After this time at one exhibit the worker counts as stuck: a trial takes at most 90 s, and loading 10 s of processor time.
+pub const STUCK: Duration = Duration::from_secs(150);
 /// Size of the stored picture, pixels: a tile is no larger on the screen.
-const THUMBNAIL_SIZE: (u32, u32) = (480, 270);
+const THUMBNAIL_SIZE: [u32; 2] = [480, 270];
 
 /// Where the exhibits come from.
 #[derive(Clone, Debug)]
@@ -80,6 +81,8 @@ pub struct CatalogLoader {
     requests: Sender<CatalogRequest>,
     /// Folders that are not listed yet.
     unlisted: Vec<PathBuf>,
+    /// Since when the worker is at what it does now.
+    busy: Arc<Mutex<Option<Instant>>>,
     /// Ends the watching when dropped.
     _watcher: Option<Debouncer<RecommendedWatcher, RecommendedCache>>,
 }
@@ -96,7 +99,15 @@ impl CatalogLoader {
     ) -> Self {
         let (requests, incoming) = channel::<CatalogRequest>();
         let (sender, events) = channel();
-        let mut worker = Worker { events: sender, queue: VecDeque::new(), shown: shown.to_path_buf(), marker };
+        let busy = Arc::new(Mutex::new(None));
+        let mut worker = Worker {
+            events: sender,
+            queue: VecDeque::new(),
+            shown: shown.to_path_buf(),
+            marker,
+            trials: Trials::default(),
+            busy: busy.clone(),
+        };
         let thread = std::thread::Builder::new().name("soffio-exhibits".into()).spawn(move || worker.run(&incoming));
         if let Err(error) = thread {
             tracing::error!("no other exhibit can be loaded: {error}");
@@ -111,7 +122,7 @@ impl CatalogLoader {
         }
         let mut unlisted = folders(places);
         unlisted.retain(|folder| !quarantine.contains(&id(folder)));
-        Self { events, requests, unlisted, _watcher: watcher.and_then(Result::ok) }
+        Self { events, requests, unlisted, busy, _watcher: watcher.and_then(Result::ok) }
     }
 
     /// Begins to list the exhibits, once. Before the first frame that would only delay it.
@@ -119,6 +130,11 @@ impl CatalogLoader {
         if !self.unlisted.is_empty() {
             let _ = self.requests.send(CatalogRequest::List(std::mem::take(&mut self.unlisted)));
         }
+    }
+
+    /// How long the worker has been at what it does now; `None` where it waits.
+    pub fn busy_for(&self) -> Option<Duration> {
+        self.busy.lock().unwrap_or_else(PoisonError::into_inner).map(|since| since.elapsed())
     }
 
     /// Requests that the exhibit of a folder is loaded and shown. It returns at once; [`CatalogEvent::Show`] or
@@ -150,8 +166,10 @@ struct Worker {
     /// Folders to load, and whether they have changed.
     queue: VecDeque<(PathBuf, bool)>,
     shown: PathBuf,
-    /// Names the exhibit that is being loaded, for a run after a crash.
+    /// Names the exhibit that is about to be shown, for a run after a crash. Those that are only listed have passed a trial.
     marker: LoadMarker,
+    trials: Trials,
+    busy: Arc<Mutex<Option<Instant>>>,
 }
 
 impl Worker {
@@ -167,6 +185,7 @@ impl Worker {
                 Err(TryRecvError::Empty) => None,
                 Ok(request) => Some(request),
             };
+            self.mark(Some(Instant::now()));
             let sent = match request {
                 Some(CatalogRequest::Show(folder)) => {
                     let newest = self.newest(folder, requests);
@@ -178,10 +197,21 @@ impl Worker {
                 }
                 None => self.queue.pop_front().map_or(Ok(()), |(folder, changed)| self.look(&folder, changed)),
             };
+            self.mark(None);
             if sent.is_err() {
                 return;
             }
         }
+    }
+
+    fn mark(&self, since: Option<Instant>) {
+        *self.busy.lock().unwrap_or_else(PoisonError::into_inner) = since;
+    }
+
+    /// Loads an exhibit that passes its trial, within the budget of memory and processor time.
+    fn load(&mut self, folder: &Path) -> Result<Exhibit, Report> {
+        self.trials.pass(folder)?;
+        exhibit::load_within(folder, &Budget::timed(|| cpu_time::ThreadTime::now().as_duration()))
     }
 
     /// The exhibit that was requested last: `folder`, or a later request that waits already. Nobody wants to see those in between.
@@ -207,7 +237,8 @@ impl Worker {
     }
 
     fn show(&mut self, folder: PathBuf) -> Result<(), ()> {
-        let event = self.marker.during(&id(&folder), || match exhibit::load(&folder) {
+        let marker = self.marker.clone();
+        let event = marker.during(&id(&folder), || match self.load(&folder) {
             Ok(exhibit) => lit(exhibit),
             Err(report) => CatalogEvent::Failed(report.to_string()),
         });
@@ -222,17 +253,16 @@ impl Worker {
         if !is_exhibit(folder) {
             return self.events.send(CatalogEvent::Removed(id)).map_err(drop);
         }
-        let events = match self.marker.during(&id, || exhibit::load(folder)) {
+        let events = match self.load(folder) {
             Ok(exhibit) => {
                 let entry = CatalogEntry {
                     id,
                     folder: folder.to_path_buf(),
                     labels: exhibit.labels.clone(),
-                    thumbnail: thumbnail(folder),
+                    thumbnail: thumbnail::read(folder, THUMBNAIL_SIZE),
                 };
                 if changed && folder == self.shown {
-                    let event = self.marker.during(&entry.id, || lit(exhibit));
-                    self.events.send(event).map_err(drop)?;
+                    self.events.send(lit(exhibit)).map_err(drop)?;
                 }
                 CatalogEvent::Listed(Box::new(entry))
             }
@@ -338,13 +368,6 @@ fn is_exhibit(folder: &Path) -> bool {
 /// The id of an exhibit: the name of its folder.
 pub fn id(folder: &Path) -> String {
     folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
-}
-
-/// The exhibit's picture, scaled down; `None` where it is missing or unreadable.
-fn thumbnail(folder: &Path) -> Option<image::RgbaImage> {
-    let picture = image::open(folder.join(THUMBNAIL)).ok()?;
-    let (width, height) = THUMBNAIL_SIZE;
-    Some(picture.resize_to_fill(width, height, image::imageops::FilterType::Triangle).to_rgba8())
 }
 
 fn watcher(

@@ -10,3 +10,4 @@ pub mod self_test_run;
 pub mod site;
 pub mod state;
 pub mod sweep;
+pub mod trial;

@@ -18,6 +18,8 @@ use crate::live::LiveState;
 use crate::pages::menu::tiles;
 use crate::pages::overlay::{BreathInput, Scene, SoundState};
 use crate::staff::{PanelInput, StaffAction, WindowStats};
+#[cfg(target_os = "linux")]
+use crate::venue::catalog::STUCK;
 use crate::venue::site::ConfigWatcher;
 use crate::venue::state::VenueState;
 use soffio_config::Config;
@@ -169,11 +171,14 @@ impl App<'_> {
         if matches!(drawn, Drawn::Shown | Drawn::Dark) {
             let counts = self.pacing.counts();
             let pictures = counts.shown + counts.dark;
+            let loading = self.exhibits.loader.busy_for();
+            let loader_stuck = loading.is_some_and(|time| time > STUCK);
+            let stuck = if loader_stuck { "; the loader of exhibits is stuck" } else { "" };
             self.watchdog.update(
                 begun.now,
-                Progress { pictures, due: frame.due, played: frame.load.played },
+                Progress { pictures, due: frame.due, played: frame.load.played, loader_stuck },
                 &format!(
-                    "{} on show; microphone {}; loudspeaker {}",
+                    "{} on show; microphone {}; loudspeaker {}{stuck}",
                     frame.exhibit.id, frame.load.audio.input, frame.load.audio.output
                 ),
             );

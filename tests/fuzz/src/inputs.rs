@@ -6,6 +6,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use soffio_authoring::drawing::outlines;
 use soffio_config::Config;
 use soffio_exhibit::{self as exhibit, Exhibit};
 use soffio_multibody::dynamics::{Integrator, Solver};
@@ -33,6 +34,9 @@ pub const KINDS: &[(&str, Reader)] = &[
     ("config", config),
     ("script", script),
     ("scene", scene),
+    ("drawing", drawing),
+    ("labels", labels),
+    ("record", record),
 ];
 
 /// `exhibit.toml` beside the models that lie in `folder`.
@@ -109,6 +113,40 @@ pub fn scene(_: &Path, bytes: &[u8]) {
             }
         }
         Err(error) => drop(error.to_string()),
+    }
+}
+
+/// An SVG drawing of plates.
+pub fn drawing(_: &Path, bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match outlines("torn.svg", text) {
+        Ok(plates) => assert!(plates.iter().all(|plate| plate.polygon.iter().all(|corner| corner.is_finite()))),
+        Err(report) => drop(report.to_text()),
+    }
+}
+
+/// A translator's table, CSV.
+pub fn labels(_: &Path, bytes: &[u8]) {
+    /// The sidecar that it belongs to.
+    const SIDECAR: &str = "[label.en]\ntitle = \"A\"\nalt = \"B\"\ntext = { invite = \"C\" }\n";
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match exhibit::labels::from_csv(exhibit::SIDECAR, SIDECAR, "torn.csv", text) {
+        Ok(merged) => drop(exhibit::labels::to_csv(exhibit::SIDECAR, &merged.sidecar)),
+        Err(report) => drop(report.to_text()),
+    }
+}
+
+/// A record of a run, replayed for a moment with the settings that it has.
+pub fn record(folder: &Path, bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Ok(sections) = record::parse(text) else { return };
+    let Ok(exhibit) = exhibit::load_model(&folder.join("model.glb")) else { return };
+    let exhibit = Arc::new(exhibit);
+    for mut section in sections.into_iter().take(2) {
+        let mut simulation = Simulation::new(exhibit.clone(), section.begin.settings);
+        for step in 0..section.steps().min(STEPS as u64) {
+            simulation.step(&section.input(step));
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use tempfile::TempDir;
 #[path = "../../suite/exhibit/glb.rs"]
 mod glb;
 pub mod inputs;
+pub mod messages;
 
 /// Processor time that one input may take: the clock on the wall says little on a busy machine.
 const MOST_TIME: Duration = Duration::from_secs(2);

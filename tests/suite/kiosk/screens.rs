@@ -5,8 +5,9 @@ use std::path::PathBuf;
 
 use image::{RgbaImage, imageops};
 use soffio_config::Config;
+use soffio_exhibit::thumbnail::THUMBNAIL;
 use soffio_kiosk::pages::languages::{languages_without_glyphs, offered};
-use soffio_kiosk::venue::catalog::{CatalogEntry, THUMBNAIL, id};
+use soffio_kiosk::venue::catalog::{CatalogEntry, id};
 use soffio_kiosk::visitor::accessibility::AccessibilitySettings;
 use soffio_kiosk::visitor::accessibility::TextSettings;
 use soffio_offline::pictures::{Pictures, write_png};

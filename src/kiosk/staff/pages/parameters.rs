@@ -12,6 +12,7 @@ use crate::pages::ui_strings::TextId;
 use crate::staff::edit::{Changes, Number, Step, four_digits, numbers, with_number};
 use crate::staff::panel_input::PanelInput;
 use soffio_exhibit::SIDECAR;
+use soffio_exhibit::files::{self, MAX_SIDECAR_BYTES};
 
 /// Share of its value by which a number changes for a point of dragging.
 const SPEED: f64 = 0.005;
@@ -71,7 +72,7 @@ impl Parameters {
         if self.file == file && self.written.is_some() && self.written == written {
             return Ok(());
         }
-        let text = std::fs::read_to_string(file).map_err(|error| format!("{}: {error}", file.display()))?;
+        let text = files::read_text(file, MAX_SIDECAR_BYTES).map_err(|problem| problem.message)?;
         (self.file, self.written) = (file.to_path_buf(), written);
         self.numbers = numbers(&text)?;
         Ok(())
