@@ -44,15 +44,15 @@ impl Walk<'_> {
             self.value(part, value, at);
         }
         match (schema["format"].as_str(), value) {
-            (Some("double" | "float"), Value::Number(number)) => {
-                if number.as_f64().is_some_and(|number| number.abs() > MAX_NUMBER) {
-                    self.report(at, value, "a number", &format!("{MAX_NUMBER:e}"));
-                }
+            (Some("double" | "float"), Value::Number(number))
+                if number.as_f64().is_some_and(|number| number.abs() > MAX_NUMBER) =>
+            {
+                self.report(at, value, "a number", &format!("{MAX_NUMBER:e}"));
             }
-            (Some("uint" | "uint32"), Value::Number(number)) => {
-                if number.as_f64().is_some_and(|number| number > MAX_COUNT as f64) {
-                    self.report(at, value, "a count", &MAX_COUNT.to_string());
-                }
+            (Some("uint" | "uint32"), Value::Number(number))
+                if number.as_f64().is_some_and(|number| number > MAX_COUNT as f64) =>
+            {
+                self.report(at, value, "a count", &MAX_COUNT.to_string());
             }
             _ => {}
         }
