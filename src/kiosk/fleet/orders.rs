@@ -2,7 +2,7 @@
 //!
 //! A broker may send thousands of commands in a second, by mistake or on purpose. So at most one of each kind waits: a later one replaces the
 //! earlier one, as it would do on the screen. The window takes one in each turn of its loop. Commands that load an exhibit are due once in
-//! [`LOADS_EVERY`], since loading takes processor time from motion and sound.
+//! `LOADS_EVERY`, since loading takes processor time from motion and sound.
 
 use std::fmt;
 use std::str::FromStr;

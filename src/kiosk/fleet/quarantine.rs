@@ -2,7 +2,7 @@
 //!
 //! A file may kill the kiosk in a way that no check foresees: by a fault of a driver, or by all the memory of the machine. The persisted
 //! state knows the exhibit on show, and a small file beside it names the one that is being loaded. So a crash counts for that exhibit.
-//! After [`LIMITS`] it is set aside for a day, or until its files change, and the other exhibits go on.
+//! After `LIMITS` it is set aside for a day, or until its files change, and the other exhibits go on.
 //!
 //! A power cut looks like a crash. The limits allow a museum to switch its kiosks off at the mains.
 

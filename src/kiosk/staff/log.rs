@@ -1,7 +1,7 @@
 //! The log: its last lines, in memory, for the staff panel, and a writer to stderr that never waits for a reader.
 //!
 //! A pipe that nobody reads is full after 64 KiB, and the next write to it waits for ever. So a thread of its own writes to stderr. Where
-//! it falls behind by [`WAITING`] lines, further lines are dropped and counted.
+//! it falls behind by `WAITING` lines, further lines are dropped and counted.
 
 use std::collections::VecDeque;
 use std::fmt::{self, Write as _};
