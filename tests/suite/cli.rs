@@ -313,7 +313,8 @@ fn a_reference_picture_needs_no_driver() {
 #[test]
 fn the_kiosk_without_a_display_says_so_and_demonstrates_only_if_asked() {
     let desk = Desk::new();
-    let kiosk = ["kiosk", "--for", "1", "--exhibit", text(&fish())];
+    let exhibit = fish();
+    let kiosk = ["kiosk", "--for", "1", "--exhibit", text(&exhibit)];
     let run = desk.soffio(&kiosk);
     assert!(
         run.code == Some(3) && run.err.contains("--demo") && desk.files().is_empty(),
