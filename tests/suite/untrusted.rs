@@ -101,7 +101,7 @@ fn of_a_long_file_only_the_stated_length_is_read() {
 #[test]
 fn images_that_are_too_much_together_are_refused_by_their_headers() {
     let image = "{\"uri\":\"grey.png\"}";
-    let desk = exhibit(&format!(",\"images\":[{}]", vec![image; 9].join(",")), "");
+    let desk = exhibit(&format!(",\"images\":[{}]", [image; 9].join(",")), "");
     grey(&desk, "exhibit/grey.png", 4096);
     // 64 MB each when decoded, and 80 MB more for a moment: the eighth is too much.
     refused(&desk, &["E0005", "exhibit.toml:2", "images[7]", "4096 × 4096", "the exhibit needs 529 MB"]);
