@@ -2,7 +2,7 @@
 //! holds counts and settings, and nothing about a person.
 //!
 //! A run after a crash restores the exhibit on show, the mute and blank state, and the count of wrong PINs. Each crash counts for the
-//! exhibit that was loaded or shown, see [`super::quarantine`]. Crashes within a minute of the start are counted too; where setting exhibits aside
+//! exhibit that was loaded or shown, see `venue::quarantine`. Crashes within a minute of the start are counted too; where setting exhibits aside
 //! does not end them, the next run is in safe mode.
 
 use std::collections::BTreeMap;
@@ -12,11 +12,11 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use crate::fleet::persisted_spread::PersistedSpread;
-use crate::fleet::quarantine::{LoadMarker, Quarantine};
 use crate::fleet::visits::Histogram;
 use crate::fleet::writer::Writer;
 use crate::step::breaths::BreathSource;
 use crate::venue::loudness::NightBy;
+use crate::venue::quarantine::{LoadMarker, Quarantine};
 use crate::venue::self_test::SelfTestHistory;
 use crate::visitor::breath_time::BreathTime;
 use soffio_config::Config;

@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 use notify_debouncer_full::notify::{EventKind, RecommendedWatcher, RecursiveMode};
 use notify_debouncer_full::{DebounceEventResult, Debouncer, RecommendedCache, new_debouncer};
 
+use super::quarantine::{LoadMarker, Quarantine};
 use super::trial::Trials;
-use crate::fleet::quarantine::{LoadMarker, Quarantine};
 use soffio_config::OTHERS;
 use soffio_exhibit::{self as exhibit, Budget, Exhibit, Labels, Report, thumbnail};
 use soffio_render::{Baked, Lighting};

@@ -5,6 +5,7 @@
 
 pub mod catalog;
 pub mod loudness;
+pub mod quarantine;
 pub mod self_test;
 pub mod self_test_run;
 pub mod site;

@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
-use soffio_kiosk::fleet::quarantine::{LoadMarker, Quarantine};
 use soffio_kiosk::venue::catalog::{Catalog, CatalogEvent, CatalogLoader, ExhibitSource, folders, id};
+use soffio_kiosk::venue::quarantine::{LoadMarker, Quarantine};
 
 use crate::sound::own_timbres::{self, WHIRR};
 use crate::sound::{RATE, spectrum};

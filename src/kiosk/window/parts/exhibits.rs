@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::fleet::Fleet;
-use crate::fleet::quarantine::Quarantine;
 use crate::venue::catalog::{Catalog, CatalogLoader, ExhibitSource, folders, id};
+use crate::venue::quarantine::Quarantine;
 use soffio_config::Config;
 
 /// Exhibits that visitors can choose from.
