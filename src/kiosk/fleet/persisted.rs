@@ -150,6 +150,8 @@ pub struct StateStore {
     writer: Option<Writer>,
     written: Option<Instant>,
     last: PersistedState,
+    /// The begin of the run could not be written.
+    refused: bool,
 }
 
 impl StateStore {
@@ -210,7 +212,12 @@ impl StateStore {
         let Some(folder) = &self.folder else { return };
         match replace(&folder.join(FILE), text(state).as_bytes(), Readers::Owner) {
             Ok(()) => self.last = state.clone(),
-            Err(error) => tracing::warn!("state: {error}. This start is not counted."),
+            // Said once: the writer says it again when the disk has room.
+            Err(_) if self.refused => {}
+            Err(error) => {
+                self.refused = true;
+                tracing::warn!("state: {error}. This start is not counted.");
+            }
         }
     }
 

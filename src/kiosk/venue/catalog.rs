@@ -125,6 +125,11 @@ impl CatalogLoader {
         Self { events, requests, unlisted, busy, _watcher: watcher.and_then(Result::ok) }
     }
 
+    /// Folders that are not listed yet, in order.
+    pub fn unlisted(&self) -> &[PathBuf] {
+        &self.unlisted
+    }
+
     /// Begins to list the exhibits, once. Before the first frame that would only delay it.
     pub fn list(&mut self) {
         if !self.unlisted.is_empty() {
@@ -285,6 +290,8 @@ fn lit(exhibit: Exhibit) -> CatalogEvent {
 pub struct Catalog {
     show: Vec<String>,
     entries: Vec<CatalogEntry>,
+    /// Folders that are not loaded yet. They can be requested, but are not listed.
+    expected: Vec<PathBuf>,
 }
 
 impl Catalog {
@@ -294,7 +301,25 @@ impl Catalog {
             ExhibitSource::One(folder) => vec![id(folder)],
             ExhibitSource::All { show, .. } => show.clone(),
         };
-        Self { show, entries: Vec::new() }
+        Self { show, entries: Vec::new(), expected: Vec::new() }
+    }
+
+    /// Expects the exhibits of these folders, until they are inserted or removed.
+    pub fn expect(&mut self, folders: Vec<PathBuf>) {
+        self.expected = folders;
+    }
+
+    /// Folders of the exhibits that can be requested, in order: the entries, and those that are not loaded yet.
+    fn folders(&self) -> Vec<&Path> {
+        let entries = self.entries.iter().map(|entry| entry.folder.as_path());
+        let mut all: Vec<&Path> = entries.chain(self.expected.iter().map(PathBuf::as_path)).collect();
+        all.sort_by_key(|folder| (self.rank(&id(folder)), id(folder)));
+        all
+    }
+
+    /// Folder of the exhibit with this id, where it can be requested.
+    pub fn folder(&self, wanted: &str) -> Option<&Path> {
+        self.folders().into_iter().find(|folder| id(folder) == wanted)
     }
 
     /// The entries in order.
@@ -322,17 +347,17 @@ impl Catalog {
     /// Removes an entry.
     pub fn remove(&mut self, id: &str) {
         self.entries.retain(|entry| entry.id != id);
+        self.expected.retain(|folder| self::id(folder) != id);
     }
 
-    /// The entry `by` places after the one with this id, cyclically; `None` where there is no other.
-    pub fn neighbour(&self, id: &str, by: isize) -> Option<&CatalogEntry> {
-        let at = self.entries.iter().position(|entry| entry.id == id);
-        let count = self.entries.len() as isize;
-        let next = match at {
-            Some(at) => (at as isize + by).rem_euclid(count.max(1)),
+    /// Folder of the exhibit `by` places after the one with this id, cyclically; `None` where there is no other.
+    pub fn neighbour(&self, id: &str, by: isize) -> Option<&Path> {
+        let all = self.folders();
+        let next = match all.iter().position(|folder| self::id(folder) == id) {
+            Some(at) => (at as isize + by).rem_euclid(all.len() as isize),
             None => 0,
         };
-        self.entries.get(next as usize).filter(|entry| entry.id != id)
+        all.get(next as usize).copied().filter(|folder| self::id(folder) != id)
     }
 
     fn rank(&self, id: &str) -> Option<usize> {
@@ -343,13 +368,13 @@ impl Catalog {
 
 /// The folders of the offered exhibits, in order.
 pub fn folders(places: &ExhibitSource) -> Vec<PathBuf> {
-    let ExhibitSource::All { folder, show } = places else {
+    let ExhibitSource::All { folder, .. } = places else {
         let ExhibitSource::One(folder) = places else { return Vec::new() };
         return vec![folder.clone()];
     };
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let mut all: Vec<PathBuf> = entries.filter(|path| is_exhibit(path)).collect();
-    let offer = Catalog { show: show.clone(), entries: Vec::new() };
+    let offer = Catalog::new(places);
     all.retain(|path| offer.rank(&id(path)).is_some());
     all.sort_by_key(|path| (offer.rank(&id(path)), id(path)));
     all

@@ -103,6 +103,10 @@ fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_
     );
     shelf.list();
     let mut offer = Catalog::new(&places);
+    // Before anything is loaded a visitor can leaf already.
+    offer.expect(folders(&places));
+    assert_eq!(offer.neighbour("steel-fish", 1).map(id).as_deref(), Some("pendulum"));
+    assert!(offer.entries().is_empty() && offer.folder("pendulum").is_some() && offer.folder("chains").is_none());
     let mut said = Vec::new();
     let mut until = |offer: &mut Catalog, wanted: &[&str]| {
         while offer.entries().iter().map(|work| work.id.as_str()).ne(wanted.iter().copied()) {
@@ -121,8 +125,8 @@ fn folders_that_are_dropped_are_offered_in_the_sites_order_and_go_when_they_are_
     // Dropped while the kiosk runs: between the two that are named, as the star says.
     copy_folder(&shipped.join("chains"), &site.path().join("chains"));
     until(&mut offer, &["steel-fish", "chains", "pendulum"]);
-    assert_eq!(offer.neighbour("pendulum", 1).map(|work| work.id.as_str()), Some("steel-fish"), "round and round");
-    assert_eq!(offer.neighbour("steel-fish", -1).map(|work| work.id.as_str()), Some("pendulum"));
+    assert_eq!(offer.neighbour("pendulum", 1).map(id).as_deref(), Some("steel-fish"), "round and round");
+    assert_eq!(offer.neighbour("steel-fish", -1).map(id).as_deref(), Some("pendulum"));
     std::fs::remove_dir_all(site.path().join("chains")).expect("removable");
     until(&mut offer, &["steel-fish", "pendulum"]);
 }

@@ -27,14 +27,10 @@ impl ExhibitSelection {
     /// The exhibits of `places`; `shown` is the folder on show.
     pub fn new(places: &ExhibitSource, shown: &Path, hot_reload: bool, fleet: &Fleet) -> Self {
         let quarantine = &fleet.persisted().quarantine;
-        Self {
-            loader: CatalogLoader::new(places, shown, hot_reload, quarantine, fleet.load_marker()),
-            offer: Catalog::new(places),
-            thumbnails: Vec::new(),
-            pending: None,
-            swipes: 0,
-            problem: None,
-        }
+        let loader = CatalogLoader::new(places, shown, hot_reload, quarantine, fleet.load_marker());
+        let mut offer = Catalog::new(places);
+        offer.expect(loader.unlisted().to_vec());
+        Self { loader, offer, thumbnails: Vec::new(), pending: None, swipes: 0, problem: None }
     }
 
     /// Requests the exhibit in a folder again, or for the first time.
@@ -47,7 +43,7 @@ impl ExhibitSelection {
     /// whether there is another.
     pub fn show_neighbour(&mut self, shown: &Path, by: i32) -> bool {
         let from = self.pending.clone().unwrap_or_else(|| id(shown));
-        let next = self.offer.neighbour(&from, by as isize).map(|exhibit| exhibit.folder.clone());
+        let next = self.offer.neighbour(&from, by as isize).map(Path::to_path_buf);
         next.inspect(|folder| self.request(folder)).is_some()
     }
 
@@ -59,8 +55,8 @@ impl ExhibitSelection {
 
     /// Requests an exhibit by its id; returns whether it is offered.
     pub fn show(&mut self, id: &str) -> bool {
-        let exhibit = self.offer.entries().iter().find(|exhibit| exhibit.id == id);
-        exhibit.map(|exhibit| exhibit.folder.clone()).inspect(|folder| self.request(folder)).is_some()
+        let folder = self.offer.folder(id).map(Path::to_path_buf);
+        folder.inspect(|folder| self.request(folder)).is_some()
     }
 
     /// Is a requested exhibit not on show yet?
